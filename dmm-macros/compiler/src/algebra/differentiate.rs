@@ -1,0 +1,277 @@
+//! Derivatives: (expression, variable) → ∂(expression)/∂(variable), by structure, each node of
+//! the DAG once.
+//!
+//! The chain rule needs two facts about a node: on which variables it depends and its *local*
+//! derivative in each child. Derivatives of divided differences h\[a, b\] =
+//! (h(b) − h(a))/(b − a) use their own functions h\[a, b\]′ = ∂h\[a, b\]/∂b; the derivatives of
+//! those (second derivatives, which no scheme needs) are written by the defining quotients
+//! ∂h′/∂b = (h″(b) − 2h\[a, b\]′)/(b − a) and ∂h′/∂a = (h\[a, b\]′ − h\[b, a\]′)/(b − a).
+
+use std::collections::HashMap;
+
+use egg::Language;
+
+use super::{Dag, Function, Id, Math, Name, PairFunction};
+
+/// ∂`root`/∂`variable`.
+pub fn differentiate(dag: &mut Dag, root: Id, variable: &Name) -> Id {
+    let mut derivative = Derivative::new(variable);
+    derivative.of(dag, root)
+}
+
+/// ∇`root`, in the order of `variables`.
+pub fn gradient(dag: &mut Dag, root: Id, variables: &[Name]) -> Vec<Id> {
+    variables
+        .iter()
+        .map(|variable| differentiate(dag, root, variable))
+        .collect()
+}
+
+/// ∂`roots`/∂`variables`, a row a root.
+pub fn jacobian(dag: &mut Dag, roots: &[Id], variables: &[Name]) -> Vec<Vec<Id>> {
+    let mut derivatives: Vec<Derivative<'_>> = variables.iter().map(Derivative::new).collect();
+    roots
+        .iter()
+        .map(|&root| {
+            derivatives
+                .iter_mut()
+                .map(|derivative| derivative.of(dag, root))
+                .collect()
+        })
+        .collect()
+}
+
+/// The derivatives in one variable that are known so far.
+struct Derivative<'a> {
+    variable: &'a Name,
+    /// The derivative of a node; `None` where the node does not depend on the variable.
+    memo: HashMap<Id, Option<Id>>,
+}
+
+impl<'a> Derivative<'a> {
+    fn new(variable: &'a Name) -> Self {
+        Self {
+            variable,
+            memo: HashMap::new(),
+        }
+    }
+
+    fn of(&mut self, dag: &mut Dag, root: Id) -> Id {
+        if !self.memo.contains_key(&root) {
+            for id in dag.reachable([root]) {
+                if !self.memo.contains_key(&id) {
+                    let derivative = self.node(dag, id);
+                    self.memo.insert(id, derivative);
+                }
+            }
+        }
+        match self.memo.get(&root) {
+            Some(&Some(derivative)) => derivative,
+            _ => dag.integer(0),
+        }
+    }
+
+    /// The derivative of a node whose children are known.
+    fn node(&self, dag: &mut Dag, id: Id) -> Option<Id> {
+        let node = dag[id].clone();
+        if let Math::Variable(name) = &node {
+            return (name == self.variable).then(|| dag.integer(1));
+        }
+        if node
+            .children()
+            .iter()
+            .all(|&child| self.child(child).is_none())
+        {
+            return None;
+        }
+        let derivative = match node {
+            Math::Pi | Math::Constant(_) | Math::Variable(_) => return None,
+            Math::Neg(u) => {
+                let du = self.child(u)?;
+                dag.neg(du)
+            }
+            Math::Add([u, v]) | Math::Sub([u, v]) => {
+                let [du, dv] = [u, v].map(|child| self.child(child));
+                let du = du.unwrap_or_else(|| dag.integer(0));
+                let dv = dv.unwrap_or_else(|| dag.integer(0));
+                match node {
+                    Math::Add(_) => dag.add(du, dv),
+                    _ => dag.sub(du, dv),
+                }
+            }
+            Math::Mul([u, v]) => {
+                let first = self.child(u).map(|du| dag.mul(du, v));
+                let second = self.child(v).map(|dv| dag.mul(u, dv));
+                sum(dag, first, second)
+            }
+            // (u′ − (u/v)·v′)/v shares the quotient u/v
+            Math::Div([u, v]) => {
+                let first = self.child(u).map(|du| dag.div(du, v));
+                let second = self.child(v).map(|dv| {
+                    let product = dag.mul(id, dv);
+                    let quotient = dag.div(product, v);
+                    dag.neg(quotient)
+                });
+                sum(dag, first, second)
+            }
+            Math::Pow([u, v]) => self.power(dag, id, u, v),
+            Math::Call(function, u) => {
+                let du = self.child(u)?;
+                let outer = call_derivative(dag, function, id, u);
+                dag.mul(outer, du)
+            }
+            Math::Pair(function, [a, b]) => {
+                let [in_a, in_b] = pair_derivatives(dag, function, a, b);
+                let first = self.child(a).map(|da| dag.mul(in_a, da));
+                let second = self.child(b).map(|db| dag.mul(in_b, db));
+                sum(dag, first, second)
+            }
+        };
+        Some(derivative)
+    }
+
+    fn child(&self, id: Id) -> Option<Id> {
+        self.memo.get(&id).copied().flatten()
+    }
+
+    /// (u^v)′ = v·u^(v−1)·u′ + u^v·ln(u)·v′
+    fn power(&self, dag: &mut Dag, id: Id, u: Id, v: Id) -> Id {
+        let first = self.child(u).map(|du| {
+            let one = dag.integer(1);
+            let exponent = dag.sub(v, one);
+            let power = dag.pow(u, exponent);
+            let outer = dag.mul(v, power);
+            dag.mul(outer, du)
+        });
+        let second = self.child(v).map(|dv| {
+            let logarithm = dag.call(Function::Ln, u);
+            let outer = dag.mul(id, logarithm);
+            dag.mul(outer, dv)
+        });
+        sum(dag, first, second)
+    }
+}
+
+fn sum(dag: &mut Dag, first: Option<Id>, second: Option<Id>) -> Id {
+    match (first, second) {
+        (Some(first), Some(second)) => dag.add(first, second),
+        (Some(only), None) | (None, Some(only)) => only,
+        (None, None) => dag.integer(0),
+    }
+}
+
+/// h′(u) where `id` is h(u).
+fn call_derivative(dag: &mut Dag, function: Function, id: Id, u: Id) -> Id {
+    use Function::*;
+    let one = dag.integer(1);
+    match function {
+        Sqrt => {
+            let half = dag.fraction(1, 2);
+            dag.div(half, id)
+        }
+        Exp => id,
+        Ln => dag.div(one, u),
+        Sin => dag.call(Cos, u),
+        Cos => {
+            let sine = dag.call(Sin, u);
+            dag.neg(sine)
+        }
+        Tan => {
+            let square = dag.powi(id, 2);
+            dag.add(one, square)
+        }
+        Sinh => dag.call(Cosh, u),
+        Cosh => dag.call(Sinh, u),
+        // 1 − tanh² would cancel where tanh is close to ±1
+        Tanh => {
+            let cosh = dag.call(Cosh, u);
+            let square = dag.powi(cosh, 2);
+            dag.div(one, square)
+        }
+        Asin => arc_derivative(dag, PairFunction::AsinDd, u),
+        Acos => {
+            let asin = arc_derivative(dag, PairFunction::AsinDd, u);
+            dag.neg(asin)
+        }
+        Atan => arc_derivative(dag, PairFunction::AtanDd, u),
+        Abs => dag.div(u, id),
+        Sinc => dag.call(SincPrime, u),
+        Sinhc => dag.call(SinhcPrime, u),
+        // sinc″ = −sinc − 2 sinc′/u, sinhc″ = sinhc − 2 sinhc′/u
+        SincPrime | SinhcPrime => {
+            let two = dag.integer(2);
+            let doubled = dag.mul(two, id);
+            let quotient = dag.div(doubled, u);
+            if function == SincPrime {
+                let sinc = dag.call(Sinc, u);
+                let sum = dag.add(sinc, quotient);
+                dag.neg(sum)
+            } else {
+                let sinhc = dag.call(Sinhc, u);
+                dag.sub(sinhc, quotient)
+            }
+        }
+    }
+}
+
+/// h′(u) of the function h whose divided difference is `function`.
+pub(super) fn arc_derivative(dag: &mut Dag, function: PairFunction, u: Id) -> Id {
+    use PairFunction::*;
+    let one = dag.integer(1);
+    match function {
+        LnDd | LnDdPrime => dag.div(one, u),
+        AsinDd | AsinDdPrime => {
+            let square = dag.powi(u, 2);
+            let difference = dag.sub(one, square);
+            let root = dag.sqrt(difference);
+            dag.div(one, root)
+        }
+        AtanDd | AtanDdPrime => {
+            let square = dag.powi(u, 2);
+            let sum = dag.add(one, square);
+            dag.div(one, sum)
+        }
+    }
+}
+
+/// h″(u), from h′(u): −h′² for ln, u·h′³ for asin, −2u·h′² for atan.
+fn second_derivative(dag: &mut Dag, function: PairFunction, u: Id) -> Id {
+    use PairFunction::*;
+    let first = arc_derivative(dag, function, u);
+    let square = dag.powi(first, 2);
+    match function {
+        LnDd | LnDdPrime => dag.neg(square),
+        AsinDd | AsinDdPrime => {
+            let cube = dag.powi(first, 3);
+            dag.mul(u, cube)
+        }
+        AtanDd | AtanDdPrime => {
+            let two = dag.integer(2);
+            let doubled = dag.mul(two, u);
+            let product = dag.mul(doubled, square);
+            dag.neg(product)
+        }
+    }
+}
+
+/// The derivatives of `function(a, b)` in a and in b.
+fn pair_derivatives(dag: &mut Dag, function: PairFunction, a: Id, b: Id) -> [Id; 2] {
+    use PairFunction::*;
+    let prime = match function {
+        LnDd => Some(LnDdPrime),
+        AsinDd => Some(AsinDdPrime),
+        AtanDd => Some(AtanDdPrime),
+        LnDdPrime | AsinDdPrime | AtanDdPrime => None,
+    };
+    if let Some(prime) = prime {
+        return [dag.pair(prime, b, a), dag.pair(prime, a, b)];
+    }
+    let difference = dag.sub(b, a);
+    let [forward, backward] = [dag.pair(function, a, b), dag.pair(function, b, a)];
+    let in_a = dag.sub(forward, backward);
+    let second = second_derivative(dag, function, b);
+    let two = dag.integer(2);
+    let doubled = dag.mul(two, forward);
+    let in_b = dag.sub(second, doubled);
+    [dag.div(in_a, difference), dag.div(in_b, difference)]
+}

@@ -1,0 +1,180 @@
+//! The language of expressions: an [`egg`] language, so that one hash-consed DAG serves
+//! parsing, proofs, derivation, optimisation and emission alike.
+
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use egg::{Id, define_language};
+use num_rational::BigRational;
+
+define_language! {
+    /// A node of an expression: an operation on other nodes of the same [`Dag`](super::Dag).
+    #[allow(missing_docs, reason = "egg's macro takes no documentation on variants")]
+    pub enum Math {
+        "pi" = Pi,
+        "+" = Add([Id; 2]),
+        "-" = Sub([Id; 2]),
+        "*" = Mul([Id; 2]),
+        "/" = Div([Id; 2]),
+        "neg" = Neg(Id),
+        "^" = Pow([Id; 2]),
+        Constant(Rational),
+        Call(Function, Id),
+        Pair(PairFunction, [Id; 2]),
+        Variable(Name),
+    }
+}
+
+/// An exact rational constant; it becomes a floating-point number only at emission.
+pub type Rational = BigRational;
+
+/// The name of a variable: a state, a parameter, the time, or a symbol of the compiler's own.
+///
+/// The values of a state `x` at the two ends of a step are the variables `x₀` and `x₁`
+/// ([`Name::at_start`], [`Name::at_end`]); no identifier of a declaration can clash with
+/// them, because a subscript digit is not allowed in one. Names are ordered as strings, so
+/// that nothing depends on the order in which they were met.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Name(Arc<str>);
+
+impl Name {
+    /// The variable called `text`.
+    pub fn new(text: &str) -> Self {
+        Self(text.into())
+    }
+
+    /// The value of this variable at the start of a step, written `x₀`.
+    pub fn at_start(&self) -> Self {
+        Self(format!("{self}₀").into())
+    }
+
+    /// The value of this variable at the end of a step, written `x₁`.
+    pub fn at_end(&self) -> Self {
+        Self(format!("{self}₁").into())
+    }
+
+    /// The name as text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl FromStr for Name {
+    type Err = std::convert::Infallible;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(Self::new(text))
+    }
+}
+
+/// Writes an enumeration of functions together with the names that `egg` and the listing use.
+macro_rules! functions {
+    ($(#[$meta:meta])* $enum:ident { $($(#[$doc:meta])* $variant:ident = $name:literal,)* }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+        pub enum $enum { $($(#[$doc])* $variant,)* }
+
+        impl $enum {
+            /// Every function of this kind.
+            pub const ALL: &[$enum] = &[$($enum::$variant),*];
+
+            /// The name that the language, the listing and the runtime's scalars use.
+            pub fn name(self) -> &'static str {
+                match self { $($enum::$variant => $name,)* }
+            }
+        }
+
+        impl fmt::Display for $enum {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(self.name())
+            }
+        }
+
+        impl FromStr for $enum {
+            type Err = String;
+
+            fn from_str(text: &str) -> Result<Self, String> {
+                match text {
+                    $($name => Ok($enum::$variant),)*
+                    _ => Err(format!("no function `{text}`")),
+                }
+            }
+        }
+    };
+}
+
+functions! {
+    /// Functions of one argument.
+    Function {
+        /// √u
+        Sqrt = "sqrt",
+        /// eᵘ
+        Exp = "exp",
+        /// Natural logarithm.
+        Ln = "ln",
+        /// Sine.
+        Sin = "sin",
+        /// Cosine.
+        Cos = "cos",
+        /// Tangent.
+        Tan = "tan",
+        /// Hyperbolic sine.
+        Sinh = "sinh",
+        /// Hyperbolic cosine.
+        Cosh = "cosh",
+        /// Hyperbolic tangent.
+        Tanh = "tanh",
+        /// Arc sine, in [−π/2, π/2].
+        Asin = "asin",
+        /// Arc cosine, in [0, π].
+        Acos = "acos",
+        /// Arc tangent, in (−π/2, π/2).
+        Atan = "atan",
+        /// |u|; of the compiler's own, for the size of a sum's terms.
+        Abs = "abs",
+        /// sin(u)/u, 1 at 0.
+        Sinc = "sinc",
+        /// The derivative of `sinc`.
+        SincPrime = "sinc_prime",
+        /// sinh(u)/u, 1 at 0.
+        Sinhc = "sinhc",
+        /// The derivative of `sinhc`.
+        SinhcPrime = "sinhc_prime",
+    }
+}
+
+functions! {
+    /// Functions of two arguments: divided differences (h(u₁) − h(u₀))/(u₁ − u₀), with the
+    /// value h′(u) where the arguments coincide, and their derivatives in the second
+    /// argument. A divided difference is symmetric, so that its derivative in the first
+    /// argument is the same function with the arguments exchanged.
+    PairFunction {
+        /// Of the natural logarithm.
+        LnDd = "ln_dd",
+        /// ∂ ln_dd(a, b)/∂b
+        LnDdPrime = "ln_dd_prime",
+        /// Of the arc sine.
+        AsinDd = "asin_dd",
+        /// ∂ asin_dd(a, b)/∂b
+        AsinDdPrime = "asin_dd_prime",
+        /// Of the arc tangent.
+        AtanDd = "atan_dd",
+        /// ∂ atan_dd(a, b)/∂b
+        AtanDdPrime = "atan_dd_prime",
+    }
+}
+
+impl Function {
+    /// Whether a declaration may call this function.
+    pub fn is_declarable(self) -> bool {
+        use Function::*;
+        !matches!(self, Abs | Sinc | SincPrime | Sinhc | SinhcPrime)
+    }
+}

@@ -1,0 +1,92 @@
+//! Expression → normal form, node by node.
+
+use std::collections::HashMap;
+
+use super::super::{Dag, Id, Math};
+use super::Obstacle;
+use super::algebra::{Algebra, Kind};
+use super::fraction::Fraction;
+use super::number::Number;
+
+/// The normal form of `root`.
+pub(super) fn normal_form(
+    algebra: &mut Algebra,
+    dag: &Dag,
+    root: Id,
+) -> Result<Fraction, Obstacle> {
+    let mut forms = Forms {
+        algebra,
+        dag,
+        known: HashMap::new(),
+    };
+    for id in dag.reachable([root]) {
+        let form = forms.node(id)?;
+        forms.known.insert(id, form);
+    }
+    forms.known.remove(&root).ok_or(Obstacle::Undefined)
+}
+
+/// The forms of the nodes below a root.
+struct Forms<'a> {
+    algebra: &'a mut Algebra,
+    dag: &'a Dag,
+    known: HashMap<Id, Fraction>,
+}
+
+impl Forms<'_> {
+    /// The form of a node whose children have theirs.
+    fn node(&mut self, id: Id) -> Result<Fraction, Obstacle> {
+        let of = |id: &Id| known(&self.known, *id);
+        let algebra = &mut *self.algebra;
+        match &self.dag[id] {
+            Math::Pi => Ok(Fraction::atom(algebra.intern(Kind::Pi)?)),
+            Math::Constant(value) => Ok(Fraction::number(Number::from_rational(value))),
+            Math::Variable(name) => Ok(Fraction::atom(algebra.variable(name))),
+            Math::Neg(u) => Ok(of(u)?.neg()),
+            Math::Add([u, v]) => algebra.add(of(u)?, of(v)?),
+            Math::Sub([u, v]) => algebra.sub(of(u)?, of(v)?),
+            Math::Mul([u, v]) => algebra.mul(of(u)?, of(v)?),
+            Math::Div([u, v]) => {
+                let inverse = self.inverse(*v)?;
+                self.algebra.mul(known(&self.known, *u)?, &inverse)
+            }
+            Math::Pow([u, v]) => {
+                let (u, v) = (of(u)?, of(v)?);
+                match v.as_number() {
+                    Some(exponent) => algebra.rational_power(u, &exponent),
+                    None => {
+                        let logarithm = algebra.ln(u)?;
+                        let product = algebra.mul(v, &logarithm)?;
+                        algebra.exp(&product)
+                    }
+                }
+            }
+            Math::Call(function, u) => algebra.call(*function, of(u)?),
+            Math::Pair(function, [a, b]) => algebra.pair(*function, of(a)?, of(b)?),
+        }
+    }
+
+    /// The form of 1/`id`. Products and powers are inverted factor by factor, which keeps the
+    /// factors of the denominator apart.
+    fn inverse(&mut self, id: Id) -> Result<Fraction, Obstacle> {
+        match self.dag[id] {
+            Math::Mul([u, v]) => {
+                let u = self.inverse(u)?;
+                let v = self.inverse(v)?;
+                return self.algebra.mul(&u, &v);
+            }
+            Math::Pow([u, v]) => {
+                if let Some(exponent) = known(&self.known, v)?.as_number() {
+                    let base = known(&self.known, u)?;
+                    return self.algebra.rational_power(base, &exponent.neg());
+                }
+            }
+            _ => {}
+        }
+        self.algebra.inverse(known(&self.known, id)?)
+    }
+}
+
+fn known(forms: &HashMap<Id, Fraction>, id: Id) -> Result<&Fraction, Obstacle> {
+    forms.get(&id).ok_or(Obstacle::Undefined)
+}

@@ -1,0 +1,346 @@
+//! The elementary functions of fractions.
+//!
+//! | function | normal form |
+//! |---|---|
+//! | exp(Σ cₖ mₖ) | Π E\[mₖ\]^cₖ |
+//! | exp(i Σ cₖ mₖ) | Π P\[mₖ\]^cₖ; roots of unity for rational multiples of π |
+//! | sin, cos, tan | by exp(i u) |
+//! | sinh, cosh, tanh | by exp(u) |
+//! | ln(c·E\[m\]·Rᵉ·p) | ln c + m + e·ln R + L\[p\] for positive c |
+//! | asin, atan | atoms, odd; acos u = π/2 − asin u |
+//! | \|u\| | (u²)^(1/2) |
+
+use super::super::{Function, PairFunction};
+use super::Obstacle;
+use super::algebra::{Algebra, Kind};
+use super::fraction::Fraction;
+use super::monomial::Exponent;
+use super::number::{Coefficient, Number};
+use super::polynomial::{Polynomial, Term};
+
+/// exp(i n asin u) and exp(i n atan u) are expanded up to this n.
+const LARGEST_MULTIPLE: i64 = 16;
+
+type Result<T> = std::result::Result<T, Obstacle>;
+
+/// A real argument Σ c·key, the keys monomials (coefficient 1) over denominators.
+type Linear = Vec<(Number, Fraction)>;
+
+impl Algebra {
+    pub(super) fn call(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
+        use Function::*;
+        match function {
+            Sqrt => self.rational_power(u, &Number::Small(1, 2)),
+            Exp => self.exp(u),
+            Ln => self.ln(u),
+            Sin => self.trigonometric(u, Coefficient::I.neg(), Coefficient::I),
+            Cos => self.trigonometric(u, Coefficient::ONE, Coefficient::ONE),
+            Tan => self.ratio(Sin, Cos, u),
+            Sinh => self.hyperbolic(u, Coefficient::ONE.neg()),
+            Cosh => self.hyperbolic(u, Coefficient::ONE),
+            Tanh => self.ratio(Sinh, Cosh, u),
+            Asin | Atan => self.arc(function, u),
+            Acos => {
+                let right_angle = self.pi_times(1, 2)?;
+                let asin = self.arc(Asin, u)?;
+                self.sub(&right_angle, &asin)
+            }
+            Abs => {
+                let square = self.mul(u, u)?;
+                self.rational_power(&square, &Number::Small(1, 2))
+            }
+            Sinc | Sinhc if u.is_zero() => Ok(Fraction::one()),
+            SincPrime | SinhcPrime if u.is_zero() => Ok(Fraction::zero()),
+            Sinc => self.cardinal(Sin, u),
+            Sinhc => self.cardinal(Sinh, u),
+            SincPrime => self.cardinal_prime(Sin, Cos, u),
+            SinhcPrime => self.cardinal_prime(Sinh, Cosh, u),
+        }
+    }
+
+    fn ratio(&mut self, above: Function, below: Function, u: &Fraction) -> Result<Fraction> {
+        let above = self.call(above, u)?;
+        let below = self.call(below, u)?;
+        self.div(&above, &below)
+    }
+
+    /// h(u)/u
+    fn cardinal(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
+        let value = self.call(function, u)?;
+        self.div(&value, u)
+    }
+
+    /// (h′(u) − h(u)/u)/u
+    fn cardinal_prime(&mut self, h: Function, first: Function, u: &Fraction) -> Result<Fraction> {
+        let cardinal = self.cardinal(h, u)?;
+        let first = self.call(first, u)?;
+        let difference = self.sub(&first, &cardinal)?;
+        self.div(&difference, u)
+    }
+
+    /// (plus·exp(i u) + minus·exp(−i u))/2
+    fn trigonometric(
+        &mut self,
+        u: &Fraction,
+        plus: Coefficient,
+        minus: Coefficient,
+    ) -> Result<Fraction> {
+        let forward = self.phase(u)?.scaled(&plus);
+        let backward = self.phase(&u.neg())?.scaled(&minus);
+        let sum = self.add(&forward, &backward)?;
+        Ok(sum.scaled(&Coefficient::real(Number::Small(1, 2))))
+    }
+
+    /// (exp(u) ± exp(−u))/2
+    fn hyperbolic(&mut self, u: &Fraction, sign: Coefficient) -> Result<Fraction> {
+        let forward = self.exp(u)?;
+        let backward = self.exp(&u.neg())?.scaled(&sign);
+        let sum = self.add(&forward, &backward)?;
+        Ok(sum.scaled(&Coefficient::real(Number::Small(1, 2))))
+    }
+
+    /// π·n/d
+    fn pi_times(&mut self, n: i64, d: i64) -> Result<Fraction> {
+        let pi = self.intern(Kind::Pi)?;
+        Ok(Fraction::atom(pi).scaled(&Coefficient::real(Number::Small(n, d))))
+    }
+
+    /// The real expression `u` as Σ c·key. Terms with phases go into one symbol.
+    fn linear(&mut self, u: &Fraction) -> Result<Linear> {
+        let u = self.cancel(u.clone());
+        let mut linear = Linear::new();
+        let mut complex = Vec::new();
+        let whole = !u.denominator.is_empty() && self.is_complex(&u);
+        for term in u.numerator.terms() {
+            let single = Polynomial::from(term.clone());
+            if whole || self.has_phases(&single) {
+                complex.push(term.clone());
+                continue;
+            }
+            if !term.coefficient.is_real() {
+                return Err(Obstacle::Undefined);
+            }
+            let key = Fraction {
+                numerator: Polynomial::from(Term {
+                    monomial: term.monomial.clone(),
+                    coefficient: Coefficient::ONE,
+                }),
+                denominator: u.denominator.clone(),
+            };
+            linear.push((term.coefficient.re.clone(), key));
+        }
+        if !complex.is_empty() {
+            let part = Fraction {
+                numerator: Polynomial::collect(complex),
+                denominator: u.denominator,
+            };
+            let mut content = part.numerator.content();
+            if part.leads_negative() {
+                content = content.neg();
+            }
+            let scale = content.recip().ok_or(Obstacle::Undefined)?;
+            let part = part.scaled(&Coefficient::real(scale));
+            let symbol = self.intern(Kind::Opaque(part))?;
+            linear.push((content, Fraction::atom(symbol)));
+        }
+        Ok(linear)
+    }
+
+    /// The kind of the atom that `key` is, if it is one alone.
+    fn as_atom(&self, key: &Fraction) -> Option<Kind> {
+        let term = key.numerator.as_term()?;
+        match term.monomial.as_slice() {
+            [only] if only.exponent == Exponent::ONE && key.denominator.is_empty() => {
+                self.kind(only.atom).cloned()
+            }
+            _ => None,
+        }
+    }
+
+    pub(super) fn exp(&mut self, u: &Fraction) -> Result<Fraction> {
+        let mut product = Fraction::one();
+        for (c, key) in self.linear(u)? {
+            let factor = match self.as_atom(&key) {
+                // exp(c ln p) = pᶜ
+                Some(Kind::Call(Function::Ln, p)) => self.rational_power(&p, &c)?,
+                _ => {
+                    let atom = self.intern(Kind::Exp(key))?;
+                    Polynomial::atom(atom, Exponent::from_number(&c)?).into()
+                }
+            };
+            product = self.mul(&product, &factor)?;
+        }
+        Ok(product)
+    }
+
+    /// exp(i u)
+    fn phase(&mut self, u: &Fraction) -> Result<Fraction> {
+        let mut product = Fraction::one();
+        for (c, key) in self.linear(u)? {
+            let multiple = c.as_integer().filter(|n| n.abs() <= LARGEST_MULTIPLE);
+            let factor = match (self.as_atom(&key), multiple) {
+                (Some(Kind::Pi), _) => self.root_of_unity(&c)?,
+                (Some(Kind::Call(Function::Asin, w)), Some(n)) => {
+                    let phase = self.phase_of_asin(&w, n < 0)?;
+                    self.integer_power(&phase, n.abs())?
+                }
+                (Some(Kind::Call(Function::Atan, w)), Some(n)) => {
+                    let phase = self.phase_of_atan(&w, n < 0)?;
+                    self.integer_power(&phase, n.abs())?
+                }
+                _ => {
+                    let atom = self.intern(Kind::Phase(key))?;
+                    Polynomial::atom(atom, Exponent::from_number(&c)?).into()
+                }
+            };
+            product = self.mul(&product, &factor)?;
+        }
+        Ok(product)
+    }
+
+    /// exp(±i asin w) = √(1 − w²) ± i w
+    fn phase_of_asin(&mut self, w: &Fraction, negative: bool) -> Result<Fraction> {
+        let square = self.mul(w, w)?;
+        let cosine_squared = self.sub(&Fraction::one(), &square)?;
+        let cosine = self.rational_power(&cosine_squared, &Number::Small(1, 2))?;
+        let i = if negative {
+            Coefficient::I.neg()
+        } else {
+            Coefficient::I
+        };
+        self.add(&cosine, &w.scaled(&i))
+    }
+
+    /// exp(±i atan w) = (1 ± i w)/√(1 + w²)
+    fn phase_of_atan(&mut self, w: &Fraction, negative: bool) -> Result<Fraction> {
+        let square = self.mul(w, w)?;
+        let secant_squared = self.add(&Fraction::one(), &square)?;
+        let cosine = self.rational_power(&secant_squared, &Number::Small(-1, 2))?;
+        let i = if negative {
+            Coefficient::I.neg()
+        } else {
+            Coefficient::I
+        };
+        let sum = self.add(&Fraction::one(), &w.scaled(&i))?;
+        self.mul(&sum, &cosine)
+    }
+
+    /// exp(i π c): by √2 and √3 for multiples of π/4 and π/6, else a power of exp(i π).
+    fn root_of_unity(&mut self, c: &Number) -> Result<Fraction> {
+        let exponent = Exponent::from_number(c)?;
+        let whole = exponent.floor();
+        let rest = exponent.sub(Exponent::integer(whole))?;
+        let sign = if whole % 2 == 0 { 1 } else { -1 };
+        let half = Number::Small(1, 2);
+        // cos and sin of the rest, an angle in [0, π), as (sign, square)
+        let squares = match rest.to_number() {
+            Number::Small(0, 1) => Some(((1, 1, 1), (1, 0, 1))),
+            Number::Small(1, 6) => Some(((1, 3, 4), (1, 1, 4))),
+            Number::Small(1, 4) => Some(((1, 1, 2), (1, 1, 2))),
+            Number::Small(1, 3) => Some(((1, 1, 4), (1, 3, 4))),
+            Number::Small(1, 2) => Some(((1, 0, 1), (1, 1, 1))),
+            Number::Small(2, 3) => Some(((-1, 1, 4), (1, 3, 4))),
+            Number::Small(3, 4) => Some(((-1, 1, 2), (1, 1, 2))),
+            Number::Small(5, 6) => Some(((-1, 3, 4), (1, 1, 4))),
+            _ => None,
+        };
+        let Some((cosine, sine)) = squares else {
+            let pi = self.intern(Kind::Pi)?;
+            let key = Fraction::atom(pi);
+            let atom = self.intern(Kind::Phase(key))?;
+            let phase = Fraction::from(Polynomial::atom(atom, rest));
+            return Ok(phase.scaled(&Coefficient::real(Number::integer(sign))));
+        };
+        let [cosine, sine] = [cosine, sine].map(|(own_sign, n, d)| -> Result<Fraction> {
+            let square = Fraction::number(Number::Small(n, d));
+            let root = self.rational_power(&square, &half)?;
+            Ok(root.scaled(&Coefficient::real(Number::integer(own_sign * sign))))
+        });
+        self.add(&cosine?, &sine?.scaled(&Coefficient::I))
+    }
+
+    /// asin or atan, odd, with the values that are simple multiples of π.
+    fn arc(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
+        if u.is_zero() {
+            return Ok(Fraction::zero());
+        }
+        let u = self.cancel(u.clone());
+        if u.leads_negative() {
+            return Ok(self.arc(function, &u.neg())?.neg());
+        }
+        match (function, u.as_number()) {
+            (Function::Asin, Some(Number::Small(1, 2))) => return self.pi_times(1, 6),
+            (Function::Asin, Some(Number::Small(1, 1))) => return self.pi_times(1, 2),
+            (Function::Atan, Some(Number::Small(1, 1))) => return self.pi_times(1, 4),
+            _ => {}
+        }
+        let atom = self.intern(Kind::Call(function, u))?;
+        Ok(Fraction::atom(atom))
+    }
+
+    /// A divided difference h\[a, b\] or its derivative in b.
+    pub(super) fn pair(
+        &mut self,
+        function: PairFunction,
+        a: &Fraction,
+        b: &Fraction,
+    ) -> Result<Fraction> {
+        use PairFunction::*;
+        let outer = match function {
+            LnDd | LnDdPrime => Function::Ln,
+            AsinDd | AsinDdPrime => Function::Asin,
+            AtanDd | AtanDdPrime => Function::Atan,
+        };
+        let distance = self.sub(b, a)?;
+        let is_prime = matches!(function, LnDdPrime | AsinDdPrime | AtanDdPrime);
+        if distance.is_zero() {
+            return if is_prime {
+                self.half_second_derivative(outer, b)
+            } else {
+                self.arc_derivative(outer, b)
+            };
+        }
+        let [at_a, at_b] = [self.call(outer, a)?, self.call(outer, b)?];
+        let difference = self.sub(&at_b, &at_a)?;
+        let quotient = self.div(&difference, &distance)?;
+        if !is_prime {
+            return Ok(quotient);
+        }
+        let derivative = self.arc_derivative(outer, b)?;
+        let difference = self.sub(&derivative, &quotient)?;
+        self.div(&difference, &distance)
+    }
+
+    /// h′(u) of ln, asin or atan.
+    fn arc_derivative(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
+        let square = self.mul(u, u)?;
+        match function {
+            Function::Asin => {
+                let cosine_squared = self.sub(&Fraction::one(), &square)?;
+                self.rational_power(&cosine_squared, &Number::Small(-1, 2))
+            }
+            Function::Atan => {
+                let sum = self.add(&Fraction::one(), &square)?;
+                self.inverse(&sum)
+            }
+            _ => self.inverse(u),
+        }
+    }
+
+    /// h″(u)/2: −h′²/2 for ln, u·h′³/2 for asin, −u·h′² for atan.
+    fn half_second_derivative(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
+        let first = self.arc_derivative(function, u)?;
+        let half = Coefficient::real(Number::Small(1, 2));
+        match function {
+            Function::Asin => {
+                let cube = self.integer_power(&first, 3)?;
+                Ok(self.mul(u, &cube)?.scaled(&half))
+            }
+            Function::Atan => {
+                let square = self.mul(&first, &first)?;
+                Ok(self.mul(u, &square)?.neg())
+            }
+            _ => Ok(self.mul(&first, &first)?.scaled(&half.neg())),
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! Tests of the algebra: goals of the normal form, properties at random points, the rules as
+//! rewrites, and the text of expressions.
+
+mod decide;
+mod divided;
+mod formula;
+mod functions;
+mod properties;
+mod random;
+mod rewrites;
+mod text;

@@ -1,0 +1,184 @@
+//! The boundary of the regions: an `impl Boundary` with g, Σ|terms of g|, ∂ₜg and ∇g.
+//!
+//! The functions are the same for every region; only the sides differ, and a region is a
+//! constant of the type.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::function::{Arguments, Functions};
+use super::lower::{Lowered, size};
+use super::paths;
+use super::store::{Store, constructor_impl};
+use super::system::Emission;
+use crate::algebra::{Dag, Id};
+use crate::model::Sign;
+
+/// The lowered nodes of an interface.
+struct Nodes {
+    value: Id,
+    size: Id,
+    time_derivative: Id,
+    gradient: Vec<Id>,
+}
+
+impl Nodes {
+    fn lower(dag: &mut Dag, lowered: &mut Lowered, emission: &Emission<'_>, index: usize) -> Self {
+        let value = emission.scheme.model.interfaces[index].switching_function;
+        let scheme = &emission.scheme.interfaces[index];
+        let size = size(dag, value);
+        Self {
+            value: lowered.lower(dag, value),
+            size: lowered.lower(dag, size),
+            time_derivative: lowered.lower(dag, scheme.time_derivative),
+            gradient: scheme
+                .gradient
+                .iter()
+                .map(|&entry| lowered.lower(dag, entry))
+                .collect(),
+        }
+    }
+}
+
+/// The struct `name` of the boundaries with its `impl`s.
+pub(super) fn boundary(emission: &Emission<'_>, name: &Ident) -> TokenStream {
+    let mut dag = emission.scheme.dag().clone();
+    let mut lowered = Lowered::new(emission.parameters.clone());
+    let nodes: Vec<Nodes> = (0..emission.scheme.interfaces.len())
+        .map(|index| Nodes::lower(&mut dag, &mut lowered, emission, index))
+        .collect();
+    let roots: Vec<Id> = nodes
+        .iter()
+        .flat_map(|nodes| {
+            [nodes.value, nodes.size, nodes.time_derivative]
+                .into_iter()
+                .chain(nodes.gradient.iter().copied())
+        })
+        .collect();
+    let store = Store::new(&lowered, &roots, &[]);
+    let functions = Functions {
+        lowered: &lowered,
+        store: &store,
+        scalar: &emission.scalar,
+        states: &emission.states,
+    };
+    let scalar = &emission.scalar;
+    let fields = store.fields(&lowered, scalar);
+    let (statements, values) =
+        store.constructor(&lowered, scalar, &|parameter| emission.field_of(parameter));
+    let constructor = constructor_impl(
+        scalar,
+        &quote!(const REGION: usize, const COUNT: usize),
+        &quote!(#name<#scalar, REGION, COUNT>),
+        &emission.scheme.model.name,
+        &statements,
+        &values,
+    );
+    let implementation = implementation(emission, name, &functions, &nodes);
+    quote! {
+        /// The `COUNT` interfaces that bound region number `REGION`.
+        #[derive(Clone, Copy, Debug)]
+        struct #name<#scalar, const REGION: usize, const COUNT: usize> { #fields }
+        #constructor
+        #implementation
+    }
+}
+
+/// `impl Boundary`
+fn implementation(
+    emission: &Emission<'_>,
+    name: &Ident,
+    functions: &Functions<'_>,
+    nodes: &[Nodes],
+) -> TokenStream {
+    let (scalar, states) = (&emission.scalar, paths::count(emission.states.len()));
+    let [boundary, bound, side, vector] =
+        ["Boundary", "Scalar", "Side", "Vector"].map(paths::support);
+    let regions = paths::count(emission.scheme.model.regions.len());
+    let sides = emission.scheme.model.regions.iter().map(|region| {
+        let sides = region.sides.iter().map(|one| {
+            let (interface, sign) = (paths::count(one.interface), sign(one.sign));
+            quote!((#interface, #side::#sign))
+        });
+        quote!(&[#(#sides),*])
+    });
+    let one_value = |root: fn(&Nodes) -> Id| {
+        let arms = nodes.iter().map(|nodes| {
+            let root = root(nodes);
+            functions.body(Arguments::Point, &[root], |block| {
+                block.compute(&[root]);
+                block.value(root)
+            })
+        });
+        select(arms.collect(), quote!(#scalar::from_f64(f64::NAN)))
+    };
+    let value = one_value(|nodes| nodes.value);
+    let size = one_value(|nodes| nodes.size);
+    let gradients = nodes.iter().map(|nodes| {
+        let roots = [&[nodes.time_derivative][..], &nodes.gradient].concat();
+        functions.body(Arguments::Point, &roots, |block| {
+            block.compute(&roots);
+            let by_time = block.value(nodes.time_derivative);
+            let gradient = functions.vector(block, &nodes.gradient);
+            quote!((#by_time, #gradient))
+        })
+    });
+    let unknown = quote! {(
+        #scalar::from_f64(f64::NAN),
+        #vector::<#scalar, #states>::from_element(#scalar::from_f64(f64::NAN)),
+    )};
+    let gradient = select(gradients.collect(), unknown);
+    let point = quote!(interface: usize, t: #scalar, state: &#vector<#scalar, #states>);
+    quote! {
+        #[automatically_derived]
+        impl<#scalar: #bound, const REGION: usize, const COUNT: usize>
+            #boundary<#scalar, #states> for #name<#scalar, REGION, COUNT>
+        {
+            const SIDES: &'static [(usize, #side)] = {
+                const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
+                BY_REGION[REGION]
+            };
+            type Each<T: ::core::marker::Copy> = [T; COUNT];
+            #[inline]
+            fn each<T: ::core::marker::Copy>(value: impl FnMut(usize) -> T) -> [T; COUNT] {
+                ::core::array::from_fn(value)
+            }
+            /// g(t, x)
+            #[inline]
+            fn switching_function(&self, #point) -> #scalar { #value }
+            /// Σ|terms of g(t, x)|
+            #[inline]
+            fn switching_size(&self, #point) -> #scalar { #size }
+            /// ∂ₜg(t, x) and ∇g(t, x)
+            #[inline]
+            fn switching_gradient(&self, #point) -> (#scalar, #vector<#scalar, #states>) {
+                #gradient
+            }
+        }
+    }
+}
+
+/// The body for `interface`; without a choice where there is one interface only.
+fn select(bodies: Vec<TokenStream>, unknown: TokenStream) -> TokenStream {
+    if let [body] = &bodies[..] {
+        return body.clone();
+    }
+    let arms = bodies.iter().enumerate().map(|(index, body)| {
+        let index = paths::count(index);
+        quote!(#index => { #body })
+    });
+    quote! {
+        match interface {
+            #(#arms)*
+            _ => #unknown,
+        }
+    }
+}
+
+/// The variant of the runtime's `Side`.
+pub(super) fn sign(sign: Sign) -> TokenStream {
+    match sign {
+        Sign::Negative => quote!(Negative),
+        Sign::Positive => quote!(Positive),
+    }
+}

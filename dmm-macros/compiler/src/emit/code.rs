@@ -1,0 +1,360 @@
+//! Straight-line code: a node used once is written where it is used, as long as the line stays
+//! readable; a node used more often is computed once, by a `let`.
+
+use std::collections::{BTreeMap, HashMap};
+
+use egg::Language;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::constant::nearest_double;
+use super::lower::Lowered;
+use super::names::Names;
+use crate::algebra::{Function, Id, Math, Name};
+
+/// The most operations that are written as one expression.
+const LONGEST_EXPRESSION: usize = 10;
+
+/// How tightly an expression binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// An expression of emitted code.
+#[derive(Clone)]
+struct Expression {
+    tokens: TokenStream,
+    binding: Binding,
+    operations: usize,
+}
+
+impl Expression {
+    fn atom(tokens: TokenStream) -> Self {
+        Self {
+            tokens,
+            binding: Binding::Atom,
+            operations: 0,
+        }
+    }
+
+    /// In parentheses if it binds less tightly than its place asks for.
+    fn at(&self, place: Binding) -> TokenStream {
+        let tokens = &self.tokens;
+        if self.binding < place {
+            quote!((#tokens))
+        } else {
+            tokens.clone()
+        }
+    }
+}
+
+/// The body of one emitted function.
+pub(super) struct Block<'a> {
+    lowered: &'a Lowered,
+    /// The type of the scalars.
+    scalar: TokenStream,
+    names: Names,
+    expressions: HashMap<Id, Expression>,
+    uses: HashMap<Id, usize>,
+    statements: Vec<TokenStream>,
+}
+
+impl<'a> Block<'a> {
+    /// A body that evaluates `roots`, in a scope where `names` are taken. `known` are the nodes
+    /// with a value outside: variables, and what was computed before.
+    pub(super) fn new(
+        lowered: &'a Lowered,
+        scalar: TokenStream,
+        names: Names,
+        known: &BTreeMap<Id, TokenStream>,
+        roots: &[Id],
+    ) -> Self {
+        let expressions: HashMap<Id, Expression> = known
+            .iter()
+            .map(|(&id, tokens)| (id, Expression::atom(tokens.clone())))
+            .collect();
+        let mut block = Self {
+            lowered,
+            scalar,
+            names,
+            expressions,
+            uses: HashMap::new(),
+            statements: Vec::new(),
+        };
+        block.count_uses(roots);
+        block
+    }
+
+    /// Makes the values of `roots` available.
+    pub(super) fn compute(&mut self, roots: &[Id]) {
+        for id in self.unknown(roots) {
+            let mut expression = self.expression(id);
+            let leaf = self.lowered.is_leaf(id);
+            let used_again = self.uses.get(&id).is_some_and(|&uses| uses > 1);
+            if !leaf && (used_again || expression.operations > LONGEST_EXPRESSION) {
+                let name = self.name(id);
+                let value = &expression.tokens;
+                self.statements.push(quote!(let #name = #value;));
+                expression = Expression::atom(quote!(#name));
+            }
+            self.expressions.insert(id, expression);
+        }
+    }
+
+    /// The value of a root that was computed.
+    pub(super) fn value(&self, root: Id) -> TokenStream {
+        self.expressions
+            .get(&root)
+            .map(|expression| expression.tokens.clone())
+            .unwrap_or_default()
+    }
+
+    /// Appends `statement`.
+    pub(super) fn push(&mut self, statement: TokenStream) {
+        self.statements.push(statement);
+    }
+
+    /// The statements so far.
+    pub(super) fn statements(self) -> TokenStream {
+        self.statements.into_iter().collect()
+    }
+
+    /// The nodes that `roots` need and that have no value yet, children before parents.
+    fn unknown(&self, roots: &[Id]) -> Vec<Id> {
+        let mut nodes = std::collections::BTreeSet::new();
+        let mut stack = roots.to_vec();
+        while let Some(id) = stack.pop() {
+            if !self.expressions.contains_key(&id) && nodes.insert(id) {
+                self.lowered.dag()[id].for_each(|child| stack.push(child));
+            }
+        }
+        nodes.into_iter().collect()
+    }
+
+    fn count_uses(&mut self, roots: &[Id]) {
+        for id in self.unknown(roots) {
+            let children: Vec<Id> = self.lowered.dag()[id].children().to_vec();
+            for child in children {
+                *self.uses.entry(child).or_default() += 1;
+            }
+        }
+        for &root in roots {
+            *self.uses.entry(root).or_default() += 1;
+        }
+    }
+
+    /// A node from the expressions of its children.
+    fn expression(&self, id: Id) -> Expression {
+        let scalar = &self.scalar;
+        let of = |id: &Id| &self.expressions[id];
+        let (tokens, binding, children) = match &self.lowered.dag()[id] {
+            Math::Constant(value) => {
+                return Expression::atom(constant(scalar, nearest_double(value)));
+            }
+            // lowering leaves no π, and every variable is known
+            Math::Pi => return Expression::atom(constant(scalar, std::f64::consts::PI)),
+            Math::Variable(name) => {
+                let name = Literal::string(name.as_str());
+                return Expression::atom(quote!(compile_error!(#name)));
+            }
+            Math::Add([a, b]) => {
+                let (left, right) = (of(a).at(Binding::Sum), of(b).at(Binding::Product));
+                (quote!(#left + #right), Binding::Sum, vec![a, b])
+            }
+            Math::Sub([a, b]) => {
+                let (left, right) = (of(a).at(Binding::Sum), of(b).at(Binding::Product));
+                (quote!(#left - #right), Binding::Sum, vec![a, b])
+            }
+            Math::Mul([a, b]) => {
+                let (left, right) = (of(a).at(Binding::Product), of(b).at(Binding::Sign));
+                (quote!(#left * #right), Binding::Product, vec![a, b])
+            }
+            Math::Div([a, b]) => {
+                let (left, right) = (of(a).at(Binding::Product), of(b).at(Binding::Sign));
+                (quote!(#left / #right), Binding::Product, vec![a, b])
+            }
+            Math::Neg(a) => {
+                let operand = of(a).at(Binding::Sign);
+                (quote!(-#operand), Binding::Sign, vec![a])
+            }
+            Math::Pow([a, b]) => {
+                let (base, exponent) = (of(a).at(Binding::Sum), of(b).at(Binding::Sum));
+                let power = match self.lowered.dag().as_integer(*b).map(i32::try_from) {
+                    Some(Ok(n)) => {
+                        let n = Literal::i32_unsuffixed(n);
+                        quote!(#scalar::powi(#base, #n))
+                    }
+                    _ => quote!(#scalar::powf(#base, #exponent)),
+                };
+                (power, Binding::Atom, vec![a, b])
+            }
+            Math::Call(Function::Exp, a) if let Some(factors) = self.lowered.secular(*a) => {
+                let (negative, p, q) = factors;
+                let (first, second) = (of(&p).at(Binding::Sign), of(&q).at(Binding::Sum));
+                let sign = negative.then(|| quote!(-));
+                (
+                    quote!(#scalar::exp_product(#sign #first, #second)),
+                    Binding::Atom,
+                    vec![a],
+                )
+            }
+            Math::Call(function, a) => {
+                let (method, argument) = (method(function.name()), of(a).at(Binding::Sum));
+                (quote!(#scalar::#method(#argument)), Binding::Atom, vec![a])
+            }
+            Math::Pair(function, [a, b]) => {
+                let method = method(function.name());
+                let (first, second) = (of(a).at(Binding::Sum), of(b).at(Binding::Sum));
+                (
+                    quote!(#scalar::#method(#first, #second)),
+                    Binding::Atom,
+                    vec![a, b],
+                )
+            }
+        };
+        let operations = 1 + children
+            .into_iter()
+            .map(|child| of(child).operations)
+            .sum::<usize>();
+        Expression {
+            tokens,
+            binding,
+            operations,
+        }
+    }
+
+    /// A readable name for a shared node.
+    fn name(&mut self, id: Id) -> Ident {
+        match suggestion(self.lowered, id) {
+            Some(wish) => self.names.take(&wish),
+            None => self.names.number("u"),
+        }
+    }
+}
+
+fn method(name: &str) -> Ident {
+    quote::format_ident!("{name}")
+}
+
+/// The scalar nearest to `value`.
+pub(super) fn constant(scalar: &TokenStream, value: f64) -> TokenStream {
+    let value = double(value);
+    quote!(#scalar::from_f64(#value))
+}
+
+/// A double as an expression.
+pub(super) fn double(value: f64) -> TokenStream {
+    let magnitude = if value.is_finite() {
+        let literal = Literal::f64_unsuffixed(value.abs());
+        quote!(#literal)
+    } else {
+        quote!(f64::INFINITY)
+    };
+    if value < 0.0 {
+        quote!(-#magnitude)
+    } else {
+        magnitude
+    }
+}
+
+/// What a reader would call a node: `x_sum` for x₀ + x₁, `x_mean` for half of it, `sin_x` …
+pub(super) fn suggestion(lowered: &Lowered, id: Id) -> Option<String> {
+    let dag = lowered.dag();
+    match &dag[id] {
+        Math::Add([a, b]) => two_ends(lowered, *a, *b).map(|stem| format!("{stem}_sum")),
+        Math::Sub([a, b]) => two_ends(lowered, *a, *b).map(|stem| format!("{stem}_step")),
+        Math::Mul([a, b]) if a == b => Some(format!("{}_2", operand(lowered, *a)?)),
+        Math::Mul([a, b]) if dag.as_constant(*a).is_some_and(is_half) => {
+            let inner = operand(lowered, *b)?;
+            Some(match inner.strip_suffix("_sum") {
+                Some(stem) => format!("{stem}_mean"),
+                None => format!("half_{inner}"),
+            })
+        }
+        Math::Call(function, a) => Some(match operand(lowered, *a) {
+            Some(inner) => format!("{function}_{inner}"),
+            None => format!("{function}_u"),
+        }),
+        _ => None,
+    }
+}
+
+fn is_half(value: &crate::algebra::Rational) -> bool {
+    *value == crate::algebra::Rational::new(1.into(), 2.into())
+}
+
+/// A short name of an operand, if it has one.
+fn operand(lowered: &Lowered, id: Id) -> Option<String> {
+    match &lowered.dag()[id] {
+        Math::Variable(name) => Some(plain(name)),
+        _ => suggestion(lowered, id).filter(|name| name.len() <= 14),
+    }
+}
+
+/// The variable whose values at the two ends are `a` and `b`.
+fn two_ends(lowered: &Lowered, a: Id, b: Id) -> Option<String> {
+    let dag = lowered.dag();
+    let (Math::Variable(a), Math::Variable(b)) = (&dag[a], &dag[b]) else {
+        return None;
+    };
+    let (a, b) = (plain(a), plain(b));
+    let stem = a.strip_suffix(['0', '1'])?;
+    (b.strip_suffix(['0', '1'])? == stem && a != b).then(|| stem.to_owned())
+}
+
+/// A variable's name as an identifier: `x₀` is `x0`, `λ[1]` is `lambda1`.
+pub(super) fn plain(name: &Name) -> String {
+    name.as_str()
+        .replace("λ[", "lambda[")
+        .chars()
+        .filter_map(|letter| match letter {
+            '₀' => Some('0'),
+            '₁' => Some('1'),
+            '[' | ']' => None,
+            letter => Some(letter),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parentheses_only_where_they_matter() {
+        let mut source = crate::algebra::Dag::new();
+        let [a, b, c] = ["a", "b", "c"].map(|name| source.variable(&Name::new(name)));
+        let sum = source.add(a, b);
+        let product = source.mul(sum, c);
+        let difference = source.sub(a, sum);
+        let difference = source.sub(difference, product);
+        let mut lowered = Lowered::new(Vec::new());
+        let root = lowered.lower(&source, difference);
+        let known: BTreeMap<Id, TokenStream> = [("a", a), ("b", b), ("c", c)]
+            .map(|(name, id)| {
+                let ident = quote::format_ident!("{name}");
+                (lowered.lower(&source, id), quote!(#ident))
+            })
+            .into();
+        let mut block = Block::new(&lowered, quote!(S), Names::default(), &known, &[root]);
+        block.compute(&[root]);
+        let value = block.value(root);
+        let statements = block.statements();
+        assert_eq!(
+            quote!(#statements #value).to_string(),
+            "let u1 = a + b ; a - u1 - c * u1"
+        );
+    }
+
+    #[test]
+    fn functions_are_called_by_the_name_of_the_scalar() {
+        assert_eq!(
+            method(crate::algebra::Function::Sinc.name()).to_string(),
+            "sinc"
+        );
+    }
+}

@@ -1,0 +1,131 @@
+//! The flow of a region: an `impl Flow`, whose functions are
+//!
+//! ```text
+//! f(t, x),   ψ(t, x),   Σ|terms of ψ|,   (ψ, Λ),   f^τ,   (f^τ, ∂f^τ/∂x₁),   ∂f^τ/∂t₁.
+//! ```
+
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+use super::function::Functions;
+use super::lower::Lowered;
+use super::methods::{point_functions, step_functions};
+use super::nodes::Nodes;
+use super::paths;
+use super::store::{Store, constructor_impl};
+use super::system::Emission;
+use crate::scheme::Solvability;
+
+/// The struct of a region's flow with its `impl`s.
+pub(super) fn flow(emission: &Emission<'_>, region: usize) -> TokenStream {
+    let mut dag = emission.scheme.dag().clone();
+    let mut lowered = Lowered::new(emission.parameters.clone());
+    let nodes = Nodes::lower(&mut dag, &mut lowered, emission, region);
+    let store = Store::new(&lowered, &nodes.roots(), &["boundary"]);
+    let functions = Functions {
+        lowered: &lowered,
+        store: &store,
+        scalar: &emission.scalar,
+        states: &emission.states,
+    };
+    let item = item(emission, region, &lowered, &store);
+    let implementation = implementation(emission, region, &functions, &nodes);
+    quote!(#item #implementation)
+}
+
+/// The struct and its constructor.
+fn item(emission: &Emission<'_>, region: usize, lowered: &Lowered, store: &Store) -> TokenStream {
+    let (name, scalar) = (&emission.flows[region], &emission.scalar);
+    let fields = store.fields(lowered, scalar);
+    let (statements, values) =
+        store.constructor(lowered, scalar, &|parameter| emission.field_of(parameter));
+    let (boundary_field, boundary_value) = match &emission.boundary {
+        Some(boundary) => {
+            let target = boundary_type(emission, boundary, region);
+            (
+                quote!(boundary: #target,),
+                quote!(boundary: #boundary::new(system),),
+            )
+        }
+        None => (TokenStream::new(), TokenStream::new()),
+    };
+    let ident = &emission.scheme.model.regions[region].ident;
+    let doc =
+        format!(" The flow of region `{ident}`: its parameters, and what depends on them alone.");
+    let constructor = constructor_impl(
+        scalar,
+        &TokenStream::new(),
+        &quote!(#name<#scalar>),
+        &emission.scheme.model.name,
+        &statements,
+        &quote!(#boundary_value #values),
+    );
+    quote! {
+        #[doc = #doc]
+        #[derive(Clone, Copy, Debug)]
+        struct #name<#scalar> { #boundary_field #fields }
+        #constructor
+    }
+}
+
+/// `impl Flow`
+fn implementation(
+    emission: &Emission<'_>,
+    region: usize,
+    functions: &Functions<'_>,
+    nodes: &Nodes,
+) -> TokenStream {
+    let scheme = &emission.scheme.regions[region];
+    let (name, scalar) = (&emission.flows[region], &emission.scalar);
+    let (states, conserved) = (
+        paths::count(emission.states.len()),
+        paths::count(nodes.psi.len()),
+    );
+    let [flow, bound, solvability] = ["Flow", "Scalar", "Solvability"].map(paths::support);
+    let kind = match scheme.solvability {
+        Solvability::Nonlinear => quote!(Nonlinear),
+        Solvability::Affine => quote!(Affine),
+        Solvability::Linear => quote!(Linear),
+    };
+    let autonomous = scheme.autonomous;
+    let boundary = boundary(emission, region);
+    let point = point_functions(functions, nodes, scalar);
+    let step = step_functions(functions, &nodes.discrete, scalar, autonomous);
+    quote! {
+        #[automatically_derived]
+        impl<#scalar: #bound> #flow<#scalar, #states, #conserved> for #name<#scalar> {
+            const AUTONOMOUS: bool = #autonomous;
+            const SOLVABILITY: #solvability = #solvability::#kind;
+            #boundary
+            #point
+            #step
+        }
+    }
+}
+
+/// The type of a region's boundary.
+fn boundary_type(emission: &Emission<'_>, boundary: &Ident, region: usize) -> TokenStream {
+    let scalar = &emission.scalar;
+    let sides = paths::count(emission.scheme.model.regions[region].sides.len());
+    let region = paths::count(region);
+    quote!(#boundary<#scalar, #region, #sides>)
+}
+
+/// The region's boundary as a part of the flow.
+fn boundary(emission: &Emission<'_>, region: usize) -> TokenStream {
+    let (target, value) = match &emission.boundary {
+        Some(boundary) => (
+            boundary_type(emission, boundary, region),
+            quote!(self.boundary),
+        ),
+        None => {
+            let unbounded = paths::support("Unbounded");
+            (unbounded.clone(), unbounded)
+        }
+    };
+    quote! {
+        type Boundary = #target;
+        #[inline]
+        fn boundary(&self) -> &Self::Boundary { &#value }
+    }
+}

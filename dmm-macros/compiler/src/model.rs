@@ -1,0 +1,162 @@
+//! The model: a declaration with every name resolved and every region complete.
+//!
+//! Formulas are nodes of one [`Dag`] over the variables of the states, the parameters and the
+//! time `t`; `const` and `let` have been replaced by what they stand for.
+
+use proc_macro2::Ident;
+use syn::{Attribute, Visibility};
+
+use crate::algebra::{Dag, Id, Name};
+use crate::diagnostics::Extent;
+
+/// A piecewise-smooth system ẋ = fᵣ(t, x) on regions r, the sign patterns of switching
+/// functions g (Hirani, Wan & Wojtalewicz, eq. 1.1).
+#[derive(Debug)]
+pub struct Model {
+    /// Documentation comments (and nothing else) of the system.
+    pub attributes: Vec<Attribute>,
+    /// Visibility of what is emitted.
+    pub visibility: Visibility,
+    /// The system's name.
+    pub name: Ident,
+    /// The expressions of every formula below.
+    pub dag: Dag,
+    /// The N states, in the order of declaration.
+    pub states: Vec<State>,
+    /// The parameters, in the order of declaration.
+    pub parameters: Vec<Parameter>,
+    /// The interfaces g = 0.
+    pub interfaces: Vec<Interface>,
+    /// The regions; exactly one, without sides, if there is no interface.
+    pub regions: Vec<Region>,
+    /// The declaration as text, formatted for people.
+    pub source: String,
+}
+
+/// A state variable.
+#[derive(Debug)]
+pub struct State {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// Its identifier in the declaration.
+    pub ident: Ident,
+    /// Its variable.
+    pub name: Name,
+}
+
+/// A parameter with its default.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// Its identifier in the declaration.
+    pub ident: Ident,
+    /// Its variable.
+    pub name: Name,
+    /// The default: an expression without variables.
+    pub default: Id,
+}
+
+/// An interface: the zero set of a switching function g(t, x).
+#[derive(Debug)]
+pub struct Interface {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// Its identifier in the declaration.
+    pub ident: Ident,
+    /// g
+    pub switching_function: Id,
+    /// Where g stands in the declaration.
+    pub span: Extent,
+}
+
+/// A region: a sign pattern of the switching functions, with its vector field.
+#[derive(Debug)]
+pub struct Region {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// Its identifier in the declaration; `everywhere` where the system has no interface.
+    pub ident: Ident,
+    /// The interfaces that bound it.
+    pub sides: Vec<Side>,
+    /// f, by state.
+    pub field: Vec<Id>,
+    /// Where each component of f stands in the declaration.
+    pub field_spans: Vec<Extent>,
+    /// The conserved quantities ψ.
+    pub conserved: Vec<Conserved>,
+}
+
+/// On which side of an interface a region lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Side {
+    /// Index in [`Model::interfaces`].
+    pub interface: usize,
+    /// g > 0 or g < 0.
+    pub sign: Sign,
+}
+
+/// The sign of a switching function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sign {
+    /// g < 0
+    Negative,
+    /// g > 0
+    Positive,
+}
+
+/// A conserved quantity ψ(t, x): ∂ₜψ + ∇ψ·f = 0.
+#[derive(Debug)]
+pub struct Conserved {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// Its identifier in the declaration.
+    pub ident: Ident,
+    /// ψ
+    pub psi: Id,
+    /// Where ψ's formula stands in the declaration.
+    pub span: Extent,
+}
+
+impl Model {
+    /// The variable of the time, `t`.
+    pub fn time() -> Name {
+        Name::new("t")
+    }
+
+    /// The variables of the states, in the order of declaration.
+    pub fn state_names(&self) -> Vec<Name> {
+        self.states.iter().map(|state| state.name.clone()).collect()
+    }
+}
+
+/// A region's name in `snake_case` as `CamelCase`, the variant that it becomes.
+pub fn camel_case(text: &str) -> String {
+    let camel: String = text
+        .trim_start_matches("r#")
+        .split('_')
+        .flat_map(|word| {
+            let mut letters = word.chars();
+            let first = letters.next().into_iter().flat_map(char::to_uppercase);
+            first.chain(letters).collect::<Vec<char>>()
+        })
+        .collect();
+    if syn::parse_str::<Ident>(&camel).is_ok() {
+        camel
+    } else {
+        format!("Region{camel}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_become_variants() {
+        assert_eq!(camel_case("above"), "Above");
+        assert_eq!(camel_case("far_left"), "FarLeft");
+        assert_eq!(camel_case("r#type"), "Type");
+        assert_eq!(camel_case("_1"), "Region1");
+    }
+}

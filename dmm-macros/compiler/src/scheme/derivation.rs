@@ -1,0 +1,108 @@
+//! Model → scheme: the multipliers and their divided differences of every region, f^τ from the
+//! first strategy that fits, and the proofs of what was derived.
+
+use super::strategy::{Context, choose, midpoint};
+use super::{RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
+use crate::algebra::{Dag, Id, Name, differentiate, divided_difference, gradient, jacobian};
+use crate::diagnostics::Diagnostics;
+use crate::model::Model;
+
+/// Derives the scheme of `model`. What cannot be derived, and an identity that fails, is
+/// reported, and then there is no scheme.
+pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme> {
+    let states = model.state_names();
+    let interfaces = model
+        .interfaces
+        .iter()
+        .map(|interface| SwitchingScheme {
+            time_derivative: differentiate(
+                &mut model.dag,
+                interface.switching_function,
+                &Model::time(),
+            ),
+            gradient: gradient(&mut model.dag, interface.switching_function, &states),
+        })
+        .collect();
+    let before = diagnostics.messages().len();
+    let regions = (0..model.regions.len())
+        .map(|region| derive_region(&mut model, region, &states, diagnostics))
+        .collect();
+    (diagnostics.messages().len() == before).then_some(Scheme {
+        model,
+        interfaces,
+        regions,
+    })
+}
+
+fn derive_region(
+    model: &mut Model,
+    region: usize,
+    states: &[Name],
+    diagnostics: &mut Diagnostics,
+) -> RegionScheme {
+    let dag = &mut model.dag;
+    let region = &model.regions[region];
+    let time = Model::time();
+    let psi: Vec<Id> = region.conserved.iter().map(|one| one.psi).collect();
+    let autonomous = !dag
+        .variables(region.field.iter().chain(&psi).copied())
+        .contains(&time);
+
+    let multiplier = jacobian(dag, &psi, states);
+    let time_derivative: Vec<Id> = psi
+        .iter()
+        .map(|&psi| differentiate(dag, psi, &time))
+        .collect();
+    let (discrete_multiplier, discrete_time_derivative) = discretise(dag, &psi, states);
+    let mean: Vec<Id> = region
+        .field
+        .iter()
+        .map(|&component| midpoint(dag, component, states))
+        .collect();
+    let context = Context {
+        states,
+        field: &region.field,
+        mean: &mean,
+        multiplier: &multiplier,
+        time_derivative: &time_derivative,
+        discrete_multiplier: &discrete_multiplier,
+        discrete_time_derivative: &discrete_time_derivative,
+    };
+    let (strategy, refusals) = choose(dag, &context);
+    let proofs = proofs::prove(dag, &context, &psi, &strategy, &mut |identity, at| {
+        diagnostics.error(
+            region.ident.span(),
+            format!("internal error of the compiler: the derived scheme violates {identity} {at}"),
+        );
+    });
+    let solvability = solvability::classify(dag, &strategy, states, autonomous);
+    RegionScheme {
+        multiplier,
+        time_derivative,
+        discrete_multiplier,
+        discrete_time_derivative,
+        strategy,
+        refusals,
+        solvability,
+        autonomous,
+        proofs,
+    }
+}
+
+/// Λ^τ and ∂ₜ^τψ: the symmetric divided differences of ψ by every state and by the time.
+fn discretise(dag: &mut Dag, psi: &[Id], states: &[Name]) -> (Vec<Vec<Id>>, Vec<Id>) {
+    let time = Model::time();
+    let mut arguments = states.to_vec();
+    arguments.push(time.clone());
+    psi.iter()
+        .map(|&psi| {
+            if dag.depends_on(psi, &time) {
+                let mut row = divided_difference(dag, psi, &arguments);
+                let by_time = row.split_off(states.len());
+                (row, dag.sum(by_time))
+            } else {
+                (divided_difference(dag, psi, states), dag.integer(0))
+            }
+        })
+        .unzip()
+}

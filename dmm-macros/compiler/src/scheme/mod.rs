@@ -1,0 +1,74 @@
+//! The scheme: what the Discrete Multiplier Method derives from a [`Model`].
+//!
+//! [`derive()`] takes a model and gives its scheme. A one-step map x₁ = x₀ + τ f^τ conserves ψ
+//! exactly if a discrete multiplier Λ^τ and ∂ₜ^τψ telescope and f^τ is orthogonal to them
+//! (Wan, Bihlo & Nave 2017):
+//!
+//! ```text
+//! Λ^τ (x₁ − x₀) + ∂ₜ^τψ (t₁ − t₀) = ψ(t₁, x₁) − ψ(t₀, x₀),      Λ^τ f^τ + ∂ₜ^τψ = 0.
+//! ```
+//!
+//! Λ^τ and ∂ₜ^τψ are the symmetric divided differences of ψ; f^τ is made from them by the
+//! first [`Strategy`] that fits, and what was derived is proved before it is handed on.
+
+mod derivation;
+mod proofs;
+mod solvability;
+mod strategy;
+
+use crate::algebra::{Dag, Id};
+use crate::model::Model;
+pub use derivation::derive;
+pub use proofs::{Evidence, Proofs};
+pub use solvability::Solvability;
+pub use strategy::{Explicit, Obstacle, Pairing, Refusal, Strategy};
+
+/// The derived integrator of a whole system.
+#[derive(Debug)]
+pub struct Scheme {
+    /// The declaration that it was derived from. Its DAG is the one all nodes below live in.
+    pub model: Model,
+    /// ∂ₜg and ∇g of every interface.
+    pub interfaces: Vec<SwitchingScheme>,
+    /// One scheme a region, in the order of [`Model::regions`].
+    pub regions: Vec<RegionScheme>,
+}
+
+/// Derivatives of a switching function, over `t` and the states.
+#[derive(Debug)]
+pub struct SwitchingScheme {
+    /// ∂ₜg
+    pub time_derivative: Id,
+    /// ∇g
+    pub gradient: Vec<Id>,
+}
+
+/// The derived scheme of one region. Ends of a step are the variables `x₀`, `x₁`, `t₀`, `t₁`.
+#[derive(Debug)]
+pub struct RegionScheme {
+    /// Λ = ∇ψ, M×N, over `t` and the states.
+    pub multiplier: Vec<Vec<Id>>,
+    /// ∂ₜψ, M, over `t` and the states.
+    pub time_derivative: Vec<Id>,
+    /// Λ^τ, M×N, over the two ends.
+    pub discrete_multiplier: Vec<Vec<Id>>,
+    /// ∂ₜ^τψ, M, over the two ends.
+    pub discrete_time_derivative: Vec<Id>,
+    /// How f^τ is made.
+    pub strategy: Strategy,
+    /// The strategies that come before it and do not fit.
+    pub refusals: Vec<Refusal>,
+    /// How the implicit equation of a step is solved.
+    pub solvability: Solvability,
+    /// Whether neither f nor ψ depends on the time.
+    pub autonomous: bool,
+    /// What was proved of the scheme.
+    pub proofs: Proofs,
+}
+
+impl Scheme {
+    /// The DAG of every node.
+    pub fn dag(&self) -> &Dag {
+        &self.model.dag
+    }
+}
