@@ -1,0 +1,82 @@
+//! Conservation for ever: the level ψ_ref of a segment, and the correction towards it.
+//!
+//! A step conserves ψ up to its rounding errors, which add up over a long run. The level is
+//! therefore kept from the entry into a region, and every few steps the residual
+//! r = ψ(t, x) − ψ_ref, a few units in the last place, is taken off the state's rounding
+//! remainder along the rows of Λ: the smallest δx with Λ δx = −r. The correction changes only
+//! the remainder, on which the next solve does not depend.
+//!
+//! Where ψ has almost no slope its rounding error must not be amplified into a large
+//! displacement: for one quantity δx = −Λᵀ r/(ΛΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of
+//! several quantities each is damped in the direction that it adds to those before it, and the
+//! rows that count are those that [`MinimalNorm`] keeps in the discrete vector field.
+
+use crate::minimal_norm::MinimalNorm;
+use crate::state::State;
+use crate::system::{Flow, Vector};
+use crate::time::Time;
+
+/// The level of the conserved quantities in a segment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Level<const N: usize, const M: usize> {
+    reference: Vector<f64, M>,
+    /// D
+    damping: Vector<f64, M>,
+}
+
+impl<const N: usize, const M: usize> Level<N, M> {
+    /// σ: rounding errors of ψ move the state by a few units in its last place.
+    const SLOPE: f64 = 1.0 / 16.0;
+
+    /// The level at the entry into a region.
+    pub(crate) fn enter<F: Flow<f64, N, M>>(flow: &F, time: Time, state: &State<N>) -> Self {
+        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let mut level = Self {
+            reference: psi + multiplier * remainder(flow, time, state),
+            damping: Vector::zeros(),
+        };
+        level.rescale(flow, time.value, state);
+        level
+    }
+
+    /// Takes D from the present state, which may have grown or shrunk since the entry.
+    pub(crate) fn rescale<F: Flow<f64, N, M>>(&mut self, flow: &F, t: f64, state: &State<N>) {
+        let scale = Self::SLOPE / state.x.norm().max(f64::MIN_POSITIVE);
+        let size = flow.conserved_size(t, &state.x);
+        self.damping = size.map(|size| (size * scale).powi(2) + f64::MIN_POSITIVE);
+    }
+
+    /// The displacement δx towards the level.
+    #[inline]
+    pub(crate) fn correction<F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        time: Time,
+        state: &State<N>,
+    ) -> Vector<f64, N> {
+        if M == 0 {
+            return Vector::zeros();
+        }
+        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let residual = (psi - self.reference) + multiplier * remainder(flow, time, state);
+        if M == 1 {
+            let row = multiplier.row(0);
+            return row.transpose() * (-residual[0] / (row.norm_squared() + self.damping[0]));
+        }
+        -MinimalNorm::new(&multiplier, &multiplier).damped(&residual, &self.damping)
+    }
+}
+
+/// The state's remainder, as far as ψ is concerned with that of the time: ψ(t + δ, x) is
+/// ψ(t, x − fδ), because ∂ₜψ = −∇ψ·f.
+#[inline]
+fn remainder<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    time: Time,
+    state: &State<N>,
+) -> Vector<f64, N> {
+    if F::AUTONOMOUS || time.remainder == 0.0 {
+        return state.remainder;
+    }
+    state.remainder - flow.vector_field(time.value, &state.x) * time.remainder
+}

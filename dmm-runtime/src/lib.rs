@@ -1,0 +1,69 @@
+//! Conservative integration of piecewise-smooth systems.
+//!
+//! A system ẋ = fᵣ(t, x) on regions r, the sign patterns of switching functions g(t, x), with
+//! quantities ψᵣ(t, x) that each field conserves, is declared with [`pws!`]. The macro proves
+//! the conservation and derives the scheme; this crate holds what does not depend on the
+//! system: the solve, the transitions, the levels of ψ, output.
+//!
+//! | to | use |
+//! |---|---|
+//! | declare a system | [`pws!`] |
+//! | integrate it | [`Integrator`] with a [`Scheme`] such as [`Symmetric`] |
+//! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
+//! | watch a long run in constant memory | [`Observer`] |
+//! | replace the search for crossings | [`Locator`] |
+//! | write a scheme | [`Scheme`], [`Flow`] |
+//!
+//! A transition is what other libraries call an event.
+//!
+//! # The scheme
+//!
+//! One step solves x₁ = x₀ + τ f^τ(t₀, x₀, t₁, x₁) with a discrete vector field f^τ for which
+//! Λ^τ f^τ + ∂ₜ^τψ = 0, where the discrete multiplier telescopes, Λ^τ Δx + ∂ₜ^τψ Δt = Δψ: so ψ
+//! is the same at both ends (Wan, Bihlo & Nave, SIAM J. Numer. Anal. 55, 2017). A step that
+//! meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ and g = 0 (Hirani,
+//! Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
+//!
+//! # Conservation for ever
+//!
+//! Increments are added to a compensated state, and the level of ψ at the entry into a region
+//! is kept: after any number of steps |ψ − ψ_ref| is a few units in the last place of ψ's
+//! terms.
+#![deny(missing_docs)]
+
+mod error;
+mod integrator;
+mod level;
+mod linear;
+mod minimal_norm;
+mod observer;
+mod scalar;
+mod scheme;
+mod transition;
+
+mod solution;
+pub mod special;
+
+mod state;
+mod statistics;
+#[doc(hidden)]
+pub mod support;
+mod system;
+mod time;
+mod walk;
+
+pub use dmm_macros::pws;
+pub use error::{Error, StepFailure};
+pub use integrator::{End, InitialValueProblem, Integrator};
+pub use minimal_norm::MinimalNorm;
+pub use observer::{Observer, Point, Transition};
+pub use scalar::Scalar;
+pub use scheme::{Correction, Scheme, Symmetric};
+pub use solution::{Interrupted, Solution};
+pub use state::State;
+pub use statistics::Statistics;
+pub use system::{
+    Boundary, Flow, FlowVisitor, Matrix, Side, Solvability, System, Unbounded, Vector,
+};
+pub use time::Time;
+pub use transition::{Crossing, Located, Locator, NewtonLocator};

@@ -1,0 +1,146 @@
+//! The scalars that generated evaluation functions are generic over.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use crate::special;
+
+/// A real scalar: `f64` or `f32`.
+///
+/// Constants enter through [`Scalar::from_f64`]. The elementary functions are those of the
+/// declaration language; the others are the divided differences that the Discrete Multiplier
+/// Method needs, see [`special`].
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// Half the distance from 1 to the next scalar: the relative rounding error.
+    const ROUNDING: Self;
+
+    /// The scalar nearest to `value`.
+    fn from_f64(value: f64) -> Self;
+    /// The value as a double.
+    fn to_f64(self) -> f64;
+    /// |u|
+    fn abs(self) -> Self;
+    /// √u
+    fn sqrt(self) -> Self;
+    /// eᵘ
+    fn exp(self) -> Self;
+    /// ln u
+    fn ln(self) -> Self;
+    /// sin u
+    fn sin(self) -> Self;
+    /// cos u
+    fn cos(self) -> Self;
+    /// tan u
+    fn tan(self) -> Self;
+    /// sinh u
+    fn sinh(self) -> Self;
+    /// cosh u
+    fn cosh(self) -> Self;
+    /// tanh u
+    fn tanh(self) -> Self;
+    /// asin u
+    fn asin(self) -> Self;
+    /// acos u
+    fn acos(self) -> Self;
+    /// atan u
+    fn atan(self) -> Self;
+    /// uⁿ for an integer n
+    fn powi(self, n: i32) -> Self;
+    /// uᵛ
+    fn powf(self, v: Self) -> Self;
+    /// e^{u·b}, u = self, without the rounding error of the product
+    fn exp_product(self, b: Self) -> Self;
+    /// sin(u)/u
+    fn sinc(self) -> Self;
+    /// d sinc(u)/du
+    fn sinc_prime(self) -> Self;
+    /// sinh(u)/u
+    fn sinhc(self) -> Self;
+    /// d sinhc(u)/du
+    fn sinhc_prime(self) -> Self;
+    /// (ln b − ln a)/(b − a), a = self
+    fn ln_dd(self, b: Self) -> Self;
+    /// ∂ ln_dd(a, b)/∂b
+    fn ln_dd_prime(self, b: Self) -> Self;
+    /// (asin b − asin a)/(b − a), a = self
+    fn asin_dd(self, b: Self) -> Self;
+    /// ∂ asin_dd(a, b)/∂b
+    fn asin_dd_prime(self, b: Self) -> Self;
+    /// (atan b − atan a)/(b − a), a = self
+    fn atan_dd(self, b: Self) -> Self;
+    /// ∂ atan_dd(a, b)/∂b
+    fn atan_dd_prime(self, b: Self) -> Self;
+}
+
+/// Implements [`Scalar`] by the primitive's own functions; the divided differences are
+/// evaluated in double precision and rounded once.
+macro_rules! implement_scalar {
+    ($real:ident) => {
+        impl Scalar for $real {
+            const ROUNDING: Self = $real::EPSILON / 2.0;
+
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                value as $real
+            }
+
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            implement_scalar!(own $real: abs sqrt exp ln sin cos tan sinh cosh tanh asin acos atan);
+
+            #[inline]
+            fn powi(self, n: i32) -> Self {
+                $real::powi(self, n)
+            }
+
+            #[inline]
+            fn powf(self, v: Self) -> Self {
+                $real::powf(self, v)
+            }
+
+            implement_scalar!(cardinal $real: sinc sinc_prime sinhc sinhc_prime);
+            implement_scalar!(
+                difference $real:
+                exp_product ln_dd ln_dd_prime asin_dd asin_dd_prime atan_dd atan_dd_prime
+            );
+        }
+    };
+    (own $real:ident: $($function:ident)*) => {$(
+        #[inline]
+        fn $function(self) -> Self {
+            $real::$function(self)
+        }
+    )*};
+    (cardinal $real:ident: $($function:ident)*) => {$(
+        #[inline]
+        fn $function(self) -> Self {
+            special::$function(f64::from(self)) as $real
+        }
+    )*};
+    (difference $real:ident: $($function:ident)*) => {$(
+        #[inline]
+        fn $function(self, b: Self) -> Self {
+            special::$function(f64::from(self), f64::from(b)) as $real
+        }
+    )*};
+}
+
+implement_scalar!(f64);
+implement_scalar!(f32);

@@ -1,0 +1,85 @@
+//! One-step schemes, as interchangeable values.
+//!
+//! A scheme maps a state x₀ over a step τ to x₁ = x₀ + d, conserving ψ if it is made from
+//! the flow's discrete vector field. Regions, transitions, levels, output and time are the
+//! integrator's, the same for every scheme (Hirani, Wan & Wojtalewicz, Algorithm 2.1).
+
+mod newton;
+mod symmetric;
+
+pub use symmetric::Symmetric;
+
+use crate::error::StepFailure;
+use crate::statistics::Statistics;
+use crate::system::{Flow, Vector};
+
+/// A one-step scheme with uniform steps.
+///
+/// The scheme is asked for increments d = x₁ − x₀ rather than for x₁, so that they keep their
+/// relative accuracy however small the step.
+pub trait Scheme: Clone {
+    /// What is remembered from step to step within a segment.
+    type Memory<const N: usize>: Clone;
+
+    /// The step size τ.
+    fn step_size(&self) -> f64;
+
+    /// Whether the state is corrected towards the level of the conserved quantities.
+    fn corrects_level(&self) -> bool;
+
+    /// The memory at the start of a segment.
+    fn begin<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        t: f64,
+        x: &Vector<f64, N>,
+    ) -> Self::Memory<N>;
+
+    /// The increment of a full step from (t₀, x₀): `tau` is the step size up to rounding
+    /// errors of the time, and the flow and its segment are those of `memory`.
+    ///
+    /// # Errors
+    /// If the implicit equation has no solution or a formula no finite value.
+    fn step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        memory: &mut Self::Memory<N>,
+        t0: f64,
+        x0: &Vector<f64, N>,
+        tau: f64,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure>;
+
+    /// The increment of a step of any size `tau` from (t₀, x₀).
+    ///
+    /// # Errors
+    /// If the implicit equation has no solution or a formula no finite value.
+    fn partial_step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        t0: f64,
+        x0: &Vector<f64, N>,
+        tau: f64,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure>;
+
+    /// One Newton correction of an approximate increment d of a step `tau`, and the velocity
+    /// ∂d/∂τ of the one-step map there: what Newton's method in (τ, d) is made of.
+    fn correction<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        t0: f64,
+        x0: &Vector<f64, N>,
+        tau: f64,
+        increment: &Vector<f64, N>,
+    ) -> Option<Correction<N>>;
+}
+
+/// See [`Scheme::correction`].
+#[derive(Clone, Copy, Debug)]
+pub struct Correction<const N: usize> {
+    /// What to add to the increment.
+    pub delta: Vector<f64, N>,
+    /// ∂d/∂τ
+    pub velocity: Vector<f64, N>,
+}

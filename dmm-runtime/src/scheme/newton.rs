@@ -1,0 +1,174 @@
+//! Newton's method for the implicit equation of a step, in the increment d = x₁ − x₀:
+//!
+//! F(d) = d − τ f^τ(t₀, x₀, t₁, x₀ + d) = 0, ∂F/∂d = I − τ ∂f^τ/∂x₁.
+
+use crate::error::StepFailure;
+use crate::linear::{is_finite, solve};
+use crate::scheme::Correction;
+use crate::statistics::Statistics;
+use crate::system::{Flow, Matrix, Vector};
+
+/// Iterations before Newton's method is given up.
+const LARGEST_ITERATIONS: u64 = 30;
+/// Halvings of a damped Newton correction before it is given up.
+const LARGEST_HALVINGS: u32 = 12;
+/// A correction s smaller than this part of the increment is the last: the error that it
+/// leaves is of the order of s², which is below rounding.
+const CONVERGED: f64 = 7.450_580_596_923_828e-9; // 2⁻²⁷ = √(2⁻⁵⁴)
+/// Where a component of the increment passes through zero, its correction is measured
+/// against this part of the state.
+const SHARE_OF_STATE: f64 = 2.441_406_25e-4; // 2⁻¹²
+
+/// A residual this small against its terms is rounding error.
+const ROUNDING: f64 = 8.881_784_197_001_252e-16; // 4ε
+
+/// The step whose equation is to be solved.
+pub(super) struct Step<'a, F, const N: usize> {
+    pub(super) flow: &'a F,
+    pub(super) t0: f64,
+    pub(super) x0: &'a Vector<f64, N>,
+    pub(super) tau: f64,
+}
+
+impl<F, const N: usize> Step<'_, F, N> {
+    /// F(d) and I − τ ∂f^τ/∂x₁.
+    #[inline]
+    fn residual<const M: usize>(
+        &self,
+        increment: &Vector<f64, N>,
+    ) -> (Vector<f64, N>, Matrix<f64, N, N>)
+    where
+        F: Flow<f64, N, M>,
+    {
+        let x1 = self.x0 + increment;
+        let (field, jacobian) = self
+            .flow
+            .linearised(self.t0, self.x0, self.t0 + self.tau, &x1);
+        let mut matrix = jacobian * -self.tau;
+        for i in 0..N {
+            matrix[(i, i)] += 1.0;
+        }
+        (increment - field * self.tau, matrix)
+    }
+
+    /// Solves the equation from a predicted increment; if that fails, once more with damping
+    /// from the explicit Euler step.
+    #[inline]
+    pub(super) fn solve<const M: usize>(
+        &self,
+        predicted: Vector<f64, N>,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure>
+    where
+        F: Flow<f64, N, M>,
+    {
+        let mut increment = predicted;
+        for _ in 0..LARGEST_ITERATIONS {
+            let (residual, matrix) = self.residual::<M>(&increment);
+            statistics.newton_iterations += 1;
+            let Some(correction) = solve(&matrix, &residual) else {
+                break;
+            };
+            increment -= correction;
+            if self.is_converged(&increment, &correction)
+                || self.is_rounding(&residual, &matrix, &increment)
+            {
+                return Ok(increment);
+            }
+        }
+        self.solve_damped::<M>(statistics)
+    }
+
+    /// Whether the error that `correction` leaves is below rounding.
+    #[inline]
+    fn is_converged(&self, increment: &Vector<f64, N>, correction: &Vector<f64, N>) -> bool {
+        (0..N).all(|i| {
+            let scale = increment[i].abs() + SHARE_OF_STATE * self.x0[i].abs();
+            correction[i].abs() <= CONVERGED * scale
+        })
+    }
+
+    /// Whether the residual is what rounding x₁ and the increment makes of it, so that no
+    /// iteration makes it smaller: |F|ᵢ ≤ c ε (|d|ᵢ + Σⱼ |τ ∂f^τᵢ/∂x₁ⱼ| (|x₀| + |d|)ⱼ).
+    #[cold]
+    fn is_rounding(
+        &self,
+        residual: &Vector<f64, N>,
+        matrix: &Matrix<f64, N, N>,
+        increment: &Vector<f64, N>,
+    ) -> bool {
+        (0..N).all(|i| {
+            let mut size = increment[i].abs();
+            for j in 0..N {
+                let slope = matrix[(i, j)] - if i == j { 1.0 } else { 0.0 };
+                size += slope.abs() * (self.x0[j].abs() + increment[j].abs());
+            }
+            residual[i].abs() <= ROUNDING * size
+        })
+    }
+
+    /// Newton's method with halved corrections until the residual falls.
+    #[cold]
+    fn solve_damped<const M: usize>(
+        &self,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure>
+    where
+        F: Flow<f64, N, M>,
+    {
+        let mut increment = self.flow.vector_field(self.t0, self.x0) * self.tau;
+        let (mut residual, mut matrix) = self.residual::<M>(&increment);
+        let mut iterations = 0;
+        while iterations < LARGEST_ITERATIONS {
+            iterations += 1;
+            statistics.newton_iterations += 1;
+            if !is_finite(&residual) {
+                return Err(StepFailure::NotFinite);
+            }
+            let Some(correction) = solve(&matrix, &residual) else {
+                break;
+            };
+            if self.is_converged(&increment, &correction) {
+                return Ok(increment - correction);
+            }
+            let mut share = 1.0;
+            let accepted = (0..LARGEST_HALVINGS).find_map(|_| {
+                let trial = increment - correction * share;
+                share *= 0.5;
+                let (r, m) = self.residual::<M>(&trial);
+                (is_finite(&r) && r.norm() < residual.norm()).then_some((trial, r, m))
+            });
+            match accepted {
+                Some((trial, r, m)) => (increment, residual, matrix) = (trial, r, m),
+                None if self.is_rounding(&residual, &matrix, &increment) => return Ok(increment),
+                None => break,
+            }
+        }
+        Err(StepFailure::NoConvergence {
+            residual: residual.amax(),
+            iterations,
+        })
+    }
+
+    /// One correction and the velocity of the one-step map:
+    /// ∂d/∂τ = (I − τ ∂f^τ/∂x₁)⁻¹ (f^τ + τ ∂f^τ/∂t₁).
+    pub(super) fn correction<const M: usize>(
+        &self,
+        increment: &Vector<f64, N>,
+    ) -> Option<Correction<N>>
+    where
+        F: Flow<f64, N, M>,
+    {
+        let (residual, matrix) = self.residual::<M>(increment);
+        let t1 = self.t0 + self.tau;
+        let x1 = self.x0 + increment;
+        let mut right = self.flow.discrete_vector_field(self.t0, self.x0, t1, &x1);
+        if !F::AUTONOMOUS {
+            right += self.flow.time_derivative(self.t0, self.x0, t1, &x1) * self.tau;
+        }
+        Some(Correction {
+            delta: -solve(&matrix, &residual)?,
+            velocity: solve(&matrix, &right)?,
+        })
+    }
+}

@@ -1,0 +1,162 @@
+//! Pairs of doubles.
+//!
+//! Where a derivative changes its sign its two terms cancel, whatever the formula; there it is
+//! evaluated in pairs of doubles, u = high + low with |low| ≤ ulp(high)/2, which carry about
+//! 104 bits (Joldes, Muller & Popescu 2017, ACM Trans. Math. Softw. 44(2), algorithms 1, 2, 6
+//! and 11; quotient and root by long division).
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::arc::coefficients;
+use super::series::power_series;
+
+/// An unevaluated sum of two doubles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Double {
+    pub(super) high: f64,
+    pub(super) low: f64,
+}
+
+/// (−1)ᵏ/(2k + 3), of the series of C; at |x| = 1/16 the first term left out is 2⁻¹⁰⁸ of the sum.
+const LEADING: [f64; 13] = coefficients(0);
+/// Those whose terms are below 2⁻⁵² of the sum, so that plain doubles do.
+const TRAILING: [f64; 13] = coefficients(13);
+
+/// a + b exactly, where |a| ≥ |b|.
+fn fast_two_sum(a: f64, b: f64) -> Double {
+    let high = a + b;
+    Double {
+        high,
+        low: b - (high - a),
+    }
+}
+
+impl Double {
+    /// A number of more digits than a double has.
+    pub(super) const fn new(high: f64, low: f64) -> Self {
+        Self { high, low }
+    }
+
+    /// a + b exactly.
+    #[inline]
+    pub(super) fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let b_part = high - a;
+        let a_part = high - b_part;
+        Self {
+            high,
+            low: (a - a_part) + (b - b_part),
+        }
+    }
+
+    /// a·b exactly. The fused operation is a call where the target lacks it, which is why
+    /// consecutive steps, the frequent case of every function, do without products of pairs.
+    pub(super) fn product(a: f64, b: f64) -> Self {
+        let high = a * b;
+        let low = a.mul_add(b, -high);
+        Self { high, low }
+    }
+
+    /// self/other, rounded once but for terms of second order.
+    pub(super) fn quotient(self, other: Self) -> f64 {
+        let quotient = self.high / other.high;
+        let remainder = (-quotient).mul_add(other.high, self.high);
+        let correction = (remainder + (self.low - quotient * other.low)) / other.high;
+        if correction.is_finite() {
+            quotient + correction
+        } else {
+            quotient
+        }
+    }
+}
+
+impl From<f64> for Double {
+    fn from(value: f64) -> Self {
+        Self {
+            high: value,
+            low: 0.0,
+        }
+    }
+}
+
+impl Neg for Double {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            high: -self.high,
+            low: -self.low,
+        }
+    }
+}
+
+impl Add for Double {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let high = Self::sum(self.high, other.high);
+        let low = Self::sum(self.low, other.low);
+        let sum = fast_two_sum(high.high, high.low + low.high);
+        fast_two_sum(sum.high, low.low + sum.low)
+    }
+}
+
+impl Sub for Double {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Double {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let product = Self::product(self.high, other.high);
+        let cross = self.high.mul_add(other.low, self.low * other.high);
+        fast_two_sum(product.high, product.low + cross)
+    }
+}
+
+impl Div for Double {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let first = self.high / other.high;
+        let remainder = self - other * Self::from(first);
+        let second = remainder.high / other.high;
+        let remainder = remainder - other * Self::from(second);
+        fast_two_sum(first, second) + Self::from(remainder.high / other.high)
+    }
+}
+
+impl Double {
+    /// √u
+    pub(super) fn sqrt(self) -> Self {
+        let root = self.high.sqrt();
+        if root == 0.0 {
+            return Self::from(root);
+        }
+        let remainder = self - Self::product(root, root);
+        fast_two_sum(root, remainder.high / (2.0 * root))
+    }
+
+    /// C(u), see [`super::arc::arc_remainder`].
+    pub(super) fn arc_remainder(self) -> Self {
+        if self.high.abs() > 1.0 / 16.0 {
+            let one = Self::from(1.0);
+            let h = one / (one + (one + self).sqrt());
+            let remainder = (self * h * h).arc_remainder();
+            return (one + Self::from(2.0) * h * remainder) * h * h;
+        }
+        let mut sum = Self::from(power_series(self.high, &TRAILING));
+        for (k, &high) in LEADING.iter().enumerate().rev() {
+            // What the coefficient ±1/n was rounded by: n·high is ±1 but for that.
+            let n = (2 * k + 3) as f64;
+            let low = (-n).mul_add(high, 1.0_f64.copysign(high)) / n;
+            sum = Self::new(high, low) + self * sum;
+        }
+        sum
+    }
+}

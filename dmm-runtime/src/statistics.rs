@@ -1,0 +1,32 @@
+//! What an integration did.
+
+use std::ops::AddAssign;
+
+/// Counters of an integration.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// Steps accepted, partial steps to and from an interface included.
+    pub steps: u64,
+    /// Newton iterations of the steps.
+    pub newton_iterations: u64,
+    /// Transitions.
+    pub transitions: u64,
+    /// Newton iterations of the locator in time and state together.
+    pub locator_iterations: u64,
+    /// Crossings that the locator found by bracketing because Newton's method did not.
+    pub bracketed: u64,
+    /// Tangential contacts with an interface: no transition.
+    pub grazes: u64,
+}
+
+impl AddAssign for Statistics {
+    fn add_assign(&mut self, more: Self) {
+        self.steps += more.steps;
+        self.newton_iterations += more.newton_iterations;
+        self.transitions += more.transitions;
+        self.locator_iterations += more.locator_iterations;
+        self.bracketed += more.bracketed;
+        self.grazes += more.grazes;
+    }
+}

@@ -1,0 +1,7 @@
+//! What generated code names. Not for use by hand.
+
+pub use crate::minimal_norm::MinimalNorm;
+pub use crate::scalar::Scalar;
+pub use crate::system::{
+    Boundary, Flow, FlowVisitor, Matrix, Side, Solvability, System, Unbounded, Vector,
+};

@@ -1,0 +1,206 @@
+//! What `pws!` emits for a system, and what the integrators ask of it.
+//!
+//! A [`System`] is a set of regions; in each of them a [`Flow`] holds one smooth vector field f
+//! with its conserved quantities ψ and the conservative scheme derived from them. The flow's
+//! [`Boundary`] is the set of interfaces g = 0 at which the region ends; for a smooth system
+//! it is [`Unbounded`], and everything about transitions is compiled away.
+
+use std::fmt::Debug;
+
+use crate::scalar::Scalar;
+
+/// A column of N scalars.
+pub type Vector<S, const N: usize> = nalgebra::SVector<S, N>;
+/// A matrix of R rows and C columns.
+pub type Matrix<S, const R: usize, const C: usize> = nalgebra::SMatrix<S, R, C>;
+
+/// A piecewise-smooth system with N states: ẋ = fᵣ(t, x) while x is in region r
+/// (Hirani, Wan & Wojtalewicz, eq. 1.1).
+///
+/// Implemented by `pws!`.
+pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
+    /// The regions; an enumeration emitted beside the system.
+    type Region: Copy + Eq + Debug + Send + Sync + 'static;
+
+    /// The system's name.
+    const NAME: &'static str;
+    /// The names of the states.
+    const STATES: [&'static str; N];
+    /// The names of the parameters.
+    const PARAMETERS: &'static [&'static str];
+    /// The names of the interfaces.
+    const INTERFACES: &'static [&'static str];
+    /// Every region, in the order of declaration.
+    const REGIONS: &'static [Self::Region];
+    /// The declaration, as text.
+    const DECLARATION: &'static str;
+    /// The derived scheme in readable mathematics.
+    const LISTING: &'static str;
+
+    /// The name of a region.
+    fn region_name(region: Self::Region) -> &'static str;
+
+    /// The names of the quantities that are conserved in a region.
+    fn conserved_names(region: Self::Region) -> &'static [&'static str];
+
+    /// On which side of each interface a region lies: the sign of g, in the order of
+    /// [`System::INTERFACES`].
+    fn sides(region: Self::Region) -> &'static [Side];
+
+    /// The parameters, in the order of [`System::PARAMETERS`].
+    fn parameters(&self) -> Vec<f64>;
+
+    /// The parameter at `index`, to be changed; nothing if there are not so many.
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64>;
+
+    /// Calls `visitor` with the flow of `region`, monomorphised for it.
+    fn visit<V: FlowVisitor<N>>(&self, region: Self::Region, visitor: V) -> V::Output;
+}
+
+/// The side of an interface.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Side {
+    /// g < 0
+    Negative,
+    /// g > 0
+    Positive,
+}
+
+impl Side {
+    /// −1 or 1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Negative => -1.0,
+            Self::Positive => 1.0,
+        }
+    }
+}
+
+/// What is to be done with the flow of a region; see [`System::visit`].
+pub trait FlowVisitor<const N: usize> {
+    /// The result.
+    type Output;
+
+    /// Does it, for a flow with M conserved quantities.
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output;
+}
+
+/// How the discrete vector field depends on the state at the later end of a step.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Solvability {
+    /// In general: Newton's method.
+    Nonlinear,
+    /// f^τ = A x₁ + b with A and b depending on x₀, t₀ and t₁: one linear solve.
+    Affine,
+    /// f^τ = A₀ x₀ + A₁ x₁ + b with A₀, A₁ and b depending on parameters alone: the
+    /// propagator is computed once a step size.
+    Linear,
+}
+
+/// The smooth flow of one region, with M conserved quantities and the conservative scheme
+/// that the compiler derived from them.
+///
+/// Every function is generic over the scalar. `x` has N entries, ψ has M, Λ is M×N, a
+/// Jacobian N×N with a row an equation.
+pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
+    /// The interfaces that bound the region.
+    type Boundary: Boundary<S, N>;
+
+    /// Whether neither f nor ψ depends on the time.
+    const AUTONOMOUS: bool;
+    /// How the implicit equation of a step is solved.
+    const SOLVABILITY: Solvability;
+
+    /// The interfaces that bound the region.
+    fn boundary(&self) -> &Self::Boundary;
+
+    /// f(t, x)
+    fn vector_field(&self, t: S, x: &Vector<S, N>) -> Vector<S, N>;
+
+    /// ψ(t, x)
+    fn conserved(&self, t: S, x: &Vector<S, N>) -> Vector<S, M>;
+
+    /// Σ|terms of ψ(t, x)|, the size that the rounding error of ψ is measured against.
+    fn conserved_size(&self, t: S, x: &Vector<S, N>) -> Vector<S, M>;
+
+    /// ψ(t, x) and the multiplier Λ = ∇ψ(t, x).
+    fn multiplier(&self, t: S, x: &Vector<S, N>) -> (Vector<S, M>, Matrix<S, M, N>);
+
+    /// f^τ(t₀, x₀, t₁, x₁)
+    fn discrete_vector_field(
+        &self,
+        t0: S,
+        x0: &Vector<S, N>,
+        t1: S,
+        x1: &Vector<S, N>,
+    ) -> Vector<S, N>;
+
+    /// f^τ(t₀, x₀, t₁, x₁) and ∂f^τ/∂x₁.
+    fn linearised(
+        &self,
+        t0: S,
+        x0: &Vector<S, N>,
+        t1: S,
+        x1: &Vector<S, N>,
+    ) -> (Vector<S, N>, Matrix<S, N, N>);
+
+    /// ∂f^τ/∂t₁; zero, and not emitted, where the flow is autonomous.
+    fn time_derivative(
+        &self,
+        _t0: S,
+        _x0: &Vector<S, N>,
+        _t1: S,
+        _x1: &Vector<S, N>,
+    ) -> Vector<S, N> {
+        Vector::from_element(S::from_f64(0.0))
+    }
+}
+
+/// The interfaces that bound a region.
+///
+/// Functions take the index of the interface in [`System::INTERFACES`].
+pub trait Boundary<S: Scalar, const N: usize>: Clone {
+    /// The indices of the interfaces that bound the region, with its side.
+    const SIDES: &'static [(usize, Side)];
+
+    /// One value for each entry of [`Boundary::SIDES`]: the array `[T; SIDES.len()]`.
+    type Each<T: Copy>: AsRef<[T]> + AsMut<[T]>;
+
+    /// The array of `value(0)`, `value(1)`, …
+    fn each<T: Copy>(value: impl FnMut(usize) -> T) -> Self::Each<T>;
+
+    /// g(t, x)
+    fn switching_function(&self, interface: usize, t: S, x: &Vector<S, N>) -> S;
+
+    /// Σ|terms of g(t, x)|, the size that the rounding error of g is measured against.
+    fn switching_size(&self, interface: usize, t: S, x: &Vector<S, N>) -> S;
+
+    /// ∂ₜg and ∇g at (t, x).
+    fn switching_gradient(&self, interface: usize, t: S, x: &Vector<S, N>) -> (S, Vector<S, N>);
+}
+
+/// The boundary of a region that has none.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Unbounded;
+
+impl<S: Scalar, const N: usize> Boundary<S, N> for Unbounded {
+    const SIDES: &'static [(usize, Side)] = &[];
+
+    type Each<T: Copy> = [T; 0];
+
+    fn each<T: Copy>(value: impl FnMut(usize) -> T) -> [T; 0] {
+        std::array::from_fn(value)
+    }
+
+    fn switching_function(&self, _: usize, _: S, _: &Vector<S, N>) -> S {
+        S::from_f64(1.0)
+    }
+
+    fn switching_size(&self, _: usize, _: S, _: &Vector<S, N>) -> S {
+        S::from_f64(1.0)
+    }
+
+    fn switching_gradient(&self, _: usize, _: S, _: &Vector<S, N>) -> (S, Vector<S, N>) {
+        (S::from_f64(0.0), Vector::from_element(S::from_f64(0.0)))
+    }
+}

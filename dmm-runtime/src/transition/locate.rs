@@ -1,0 +1,215 @@
+//! Locating a crossing: (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ(t_k, x_k, t̂*, x̂*) and
+//! g(t̂*, x̂*) = 0, solved together (Hirani, Wan & Wojtalewicz, eqs. 2.4–2.5).
+//!
+//! The order of accuracy of a scheme survives a transition only if t̂* is as accurate as the
+//! scheme (their Theorem 3.1). [`NewtonLocator`] solves to rounding; [`Integrator::locator`]
+//! takes any other [`Locator`].
+//!
+//! [`Integrator::locator`]: crate::Integrator::locator
+
+use crate::error::StepFailure;
+use crate::scheme::Scheme;
+use crate::state::State;
+use crate::statistics::Statistics;
+use crate::system::{Boundary, Flow, Vector};
+
+/// A step in which an interface is crossed, as a locator sees it.
+///
+/// The sign of g is turned so that g is positive in the region that is left: g falls through
+/// zero between `lower` and `upper`.
+#[derive(Debug)]
+pub struct Crossing<'a, Sch, F, const N: usize> {
+    /// The scheme.
+    pub scheme: &'a Sch,
+    /// The flow of the region that is left.
+    pub flow: &'a F,
+    /// Index of the interface.
+    pub interface: usize,
+    /// Start of the step.
+    pub t0: f64,
+    /// State there.
+    pub state: &'a State<N>,
+    /// A time after `t0`, as a difference to it, at which g ≥ 0.
+    pub lower: f64,
+    /// A later one at which g ≤ 0.
+    pub upper: f64,
+    /// The step size τ of the scheme, of which the step may be a part.
+    pub step_size: f64,
+    pub(crate) sign: f64,
+}
+
+/// A located crossing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Located<const N: usize> {
+    /// t̂* − t₀
+    pub elapsed: f64,
+    /// x̂* − x₀
+    pub increment: Vector<f64, N>,
+}
+
+/// Finds the point at which an interface is crossed.
+pub trait Locator {
+    /// Solves for (t̂*, x̂*), or returns nothing if it cannot.
+    fn locate<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        crossing: &Crossing<'_, Sch, F, N>,
+        statistics: &mut Statistics,
+    ) -> Option<Located<N>>;
+}
+
+impl<Sch: Scheme, F, const N: usize> Crossing<'_, Sch, F, N> {
+    /// x(t₀ + elapsed) − x₀ by one step of the scheme.
+    ///
+    /// # Errors
+    /// If the step cannot be made.
+    pub fn increment<const M: usize>(
+        &self,
+        elapsed: f64,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure>
+    where
+        F: Flow<f64, N, M>,
+    {
+        self.scheme
+            .partial_step(self.flow, self.t0, &self.state.x, elapsed, statistics)
+    }
+
+    /// g (positive in the region that is left), ∂ₜg and ∇g after `increment`, the state's
+    /// remainder taken into account.
+    pub fn switching<const M: usize>(
+        &self,
+        elapsed: f64,
+        increment: &Vector<f64, N>,
+    ) -> (f64, f64, Vector<f64, N>)
+    where
+        F: Flow<f64, N, M>,
+    {
+        let t = self.t0 + elapsed;
+        let end = self.state.after(increment);
+        let boundary = self.flow.boundary();
+        let value = boundary.switching_function(self.interface, t, &end.x);
+        let (rate, gradient) = boundary.switching_gradient(self.interface, t, &end.x);
+        (
+            self.sign * (value + gradient.dot(&end.remainder)),
+            self.sign * rate,
+            gradient * self.sign,
+        )
+    }
+}
+
+/// Newton's method in (t̂*, x̂*) together with generated derivatives, safeguarded by the
+/// bracket in time; where it does not converge, bracketing on g along the one-step map.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct NewtonLocator;
+
+impl NewtonLocator {
+    const LARGEST_ITERATIONS: u32 = 12;
+    const LARGEST_BISECTIONS: u32 = 200;
+    /// A correction of time smaller than this part of the step is the last.
+    const CONVERGED: f64 = 1e-9;
+
+    fn newton<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        crossing: &Crossing<'_, Sch, F, N>,
+        statistics: &mut Statistics,
+    ) -> Option<Located<N>> {
+        let (g_lower, _) = value_at(crossing, crossing.lower, statistics)?;
+        let (g_upper, upper) = value_at(crossing, crossing.upper, statistics)?;
+        let width = crossing.upper - crossing.lower;
+        let share = (g_lower / (g_lower - g_upper)).clamp(0.0, 1.0);
+        let mut elapsed = crossing.lower + width * if share.is_finite() { share } else { 0.5 };
+        // x₀ + f θ + c θ² through both ends
+        let velocity = crossing.flow.vector_field(crossing.t0, &crossing.state.x);
+        let part = elapsed / crossing.upper;
+        let mut increment =
+            velocity * elapsed + (upper - velocity * crossing.upper) * (part * part);
+        for _ in 0..Self::LARGEST_ITERATIONS {
+            statistics.locator_iterations += 1;
+            let correction = crossing.scheme.correction(
+                crossing.flow,
+                crossing.t0,
+                &crossing.state.x,
+                elapsed,
+                &increment,
+            )?;
+            let (value, rate, gradient) = crossing.switching(elapsed, &increment);
+            let slope = rate + gradient.dot(&correction.velocity);
+            let delta = -(value + gradient.dot(&correction.delta)) / slope;
+            elapsed += delta;
+            increment += correction.delta + correction.velocity * delta;
+            let slack = Self::CONVERGED * width;
+            if !(crossing.lower - slack..=crossing.upper + slack).contains(&elapsed) {
+                return None;
+            }
+            let settled = correction.delta.amax() <= Self::CONVERGED * increment.amax();
+            if delta.abs() <= slack && settled {
+                // a root at which g rises is the end of an excursion, not its beginning
+                return (slope < 0.0 && elapsed >= 0.0).then_some(Located { elapsed, increment });
+            }
+        }
+        None
+    }
+
+    /// Illinois' modification of regula falsi: superlinear, and the bracket never opens.
+    fn bracket<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        crossing: &Crossing<'_, Sch, F, N>,
+        statistics: &mut Statistics,
+    ) -> Option<Located<N>> {
+        statistics.bracketed += 1;
+        let (mut lower, mut upper) = (crossing.lower, crossing.upper);
+        let (mut g_lower, _) = value_at(crossing, lower, statistics)?;
+        let (mut g_upper, mut increment) = value_at(crossing, upper, statistics)?;
+        for iteration in 0..Self::LARGEST_BISECTIONS {
+            let secant = lower + (upper - lower) * (g_lower / (g_lower - g_upper));
+            let inside = secant > lower && secant < upper;
+            // every third point bisects, so that a flat g cannot hold the search up
+            let middle = if inside && iteration % 3 != 2 {
+                secant
+            } else {
+                0.5 * (lower + upper)
+            };
+            if middle <= lower || middle >= upper {
+                break;
+            }
+            let (g, at_middle) = value_at(crossing, middle, statistics)?;
+            if g > 0.0 {
+                (lower, g_lower) = (middle, g);
+                g_upper *= 0.5;
+            } else {
+                (upper, g_upper, increment) = (middle, g, at_middle);
+                g_lower *= 0.5;
+                if g == 0.0 {
+                    break;
+                }
+            }
+        }
+        Some(Located {
+            elapsed: upper,
+            increment,
+        })
+    }
+}
+
+/// g along the one-step map, and the increment there.
+fn value_at<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    crossing: &Crossing<'_, Sch, F, N>,
+    elapsed: f64,
+    statistics: &mut Statistics,
+) -> Option<(f64, Vector<f64, N>)> {
+    let increment = if elapsed == 0.0 {
+        Vector::zeros()
+    } else {
+        crossing.increment::<M>(elapsed, statistics).ok()?
+    };
+    let (value, ..) = crossing.switching(elapsed, &increment);
+    value.is_finite().then_some((value, increment))
+}
+
+impl Locator for NewtonLocator {
+    fn locate<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        crossing: &Crossing<'_, Sch, F, N>,
+        statistics: &mut Statistics,
+    ) -> Option<Located<N>> {
+        Self::newton(crossing, statistics).or_else(|| Self::bracket(crossing, statistics))
+    }
+}

@@ -1,0 +1,167 @@
+//! A segment: steps in one region until its boundary or the end time is reached.
+
+use crate::error::{Error, StepFailure};
+use crate::level::Level;
+use crate::linear::is_finite;
+use crate::observer::{Observer, Point};
+use crate::scheme::Scheme;
+use crate::statistics::Statistics;
+use crate::system::{Flow, FlowVisitor, System};
+use crate::time::Time;
+use crate::transition::Locator;
+use crate::walk::interfaces::{Watches, advance, is_near, watches};
+use crate::walk::{SegmentEnd, Walk};
+
+/// The remainder is renormalised and the level corrected every so many steps: the rounding
+/// errors of those in between are together still below the error of evaluating ψ.
+const INTERVAL: u64 = 32;
+/// Steps between adaptions of the level's correction to the size of the state; a multiple of
+/// [`INTERVAL`].
+const RESCALING: u64 = 256;
+
+impl<Sys, Sch, Loc, Obs, const N: usize> FlowVisitor<N> for &mut Walk<'_, Sys, Sch, Loc, Obs, N>
+where
+    Sys: System<N>,
+    Sch: Scheme,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
+    type Output = Result<SegmentEnd, Error>;
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output {
+        let mut level = Level::enter(flow, self.time, &self.state);
+        let mut watches = watches(flow, self.time.value, &self.state.x, self.fresh);
+        loop {
+            let end = match self.at_node && self.node < self.grid.count {
+                true => self.full_steps(flow, &mut level, &mut watches)?,
+                false => self.partial_step(flow, &level, &mut watches)?,
+            };
+            if let Some(end) = end {
+                return Ok(end);
+            }
+        }
+    }
+}
+
+impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
+where
+    Sys: System<N>,
+    Sch: Scheme,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
+    /// Full steps, until the last node but one or whatever ends the segment.
+    ///
+    /// The state is a local variable, and the time is computed where it is used: the clock of
+    /// an autonomous flow that nobody observes costs nothing.
+    fn full_steps<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        level: &mut Level<N, M>,
+        watches: &mut Watches<F, N, M>,
+    ) -> Result<Option<SegmentEnd>, Error> {
+        let grid = self.grid;
+        let corrects_level = self.scheme.corrects_level();
+        let mut memory = self.scheme.begin(flow, self.time.value, &self.state.x);
+        let mut counts = Statistics::default();
+        let mut state = self.state;
+        let mut node = self.node;
+        // the last state known to be finite, where not every one is checked
+        let mut finite = (state, node);
+        let end = loop {
+            if node >= grid.count {
+                break Ok(None);
+            }
+            let (t0, t1) = (grid.value(node - 1), grid.value(node));
+            // telescoping sums need the very times that ψ(t, x) is evaluated at
+            let tau = if F::AUTONOMOUS {
+                grid.step_size
+            } else {
+                t1 - t0
+            };
+            let step = self
+                .scheme
+                .step(flow, &mut memory, t0, &state.x, tau, &mut counts);
+            let increment = match step {
+                Ok(increment) => increment,
+                Err(failure) => break Err(failure),
+            };
+            let mut next = state.after(&increment);
+            let checks = Obs::LISTENS || node.is_multiple_of(INTERVAL);
+            if checks && !is_finite(&next.x) {
+                (state, node) = if Obs::LISTENS { (state, node) } else { finite };
+                break Err(StepFailure::NotFinite);
+            }
+            let near = is_near(flow, watches, t1, &next.x);
+            if near || self.observer.next_output().is_some_and(|t| t <= t1) {
+                self.settle::<M, F>(state, node, &mut counts);
+                if near && let Some(end) = self.look(flow, level, watches, tau, &increment)? {
+                    return Ok(Some(end));
+                }
+                self.outputs(flow, tau, self.node_time::<M, F>(node))?;
+            }
+            if node.is_multiple_of(INTERVAL) {
+                next = next.normalised();
+                if corrects_level {
+                    if node.is_multiple_of(RESCALING) {
+                        level.rescale(flow, t1, &next);
+                    }
+                    // into x at once: left in the remainder, which the flow does not turn, it
+                    // would later be taken off along a Λ that has turned away
+                    next.remainder += level.correction(flow, Time::new(t1), &next);
+                    next = next.normalised();
+                }
+                finite = (next, node + 1);
+            }
+            advance(flow, watches, t1, &next.x);
+            state = next;
+            node += 1;
+            counts.steps += 1;
+            let point = Point {
+                t: t1,
+                time: Time::new(t1),
+                x: state.rounded(),
+                region: self.region,
+            };
+            if self.observer.point(&point).is_break() {
+                break Ok(Some(SegmentEnd::Stopped));
+            }
+        };
+        self.settle::<M, F>(state, node, &mut counts);
+        end.map_err(|failure| self.failure(failure, grid.step_size))
+    }
+
+    /// A step that is not a full one, from a transition to the next node or to the end time.
+    fn partial_step<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        level: &Level<N, M>,
+        watches: &mut Watches<F, N, M>,
+    ) -> Result<Option<SegmentEnd>, Error> {
+        if self.node > self.grid.count {
+            return Ok(Some(SegmentEnd::Finished));
+        }
+        let end = self.node_time::<M, F>(self.node);
+        let tau = end.since(self.time);
+        // zero where a transition was at this node, negative where a locator moved it beyond
+        if tau > 0.0 {
+            let t0 = self.time.value;
+            let increment = self
+                .scheme
+                .partial_step(flow, t0, &self.state.x, tau, &mut self.statistics)
+                .map_err(|failure| self.failure(failure, tau))?;
+            if let Some(end) = self.look(flow, level, watches, tau, &increment)? {
+                return Ok(Some(end));
+            }
+            self.outputs(flow, tau, end)?;
+            self.accept(flow, level, &increment, tau, end)?;
+            advance(flow, watches, end.value, &self.state.x);
+            if self.tell_point().is_break() {
+                return Ok(Some(SegmentEnd::Stopped));
+            }
+        }
+        self.node += 1;
+        self.at_node = tau >= 0.0;
+        Ok(None)
+    }
+}
