@@ -1,0 +1,144 @@
+//! `pws conserve`
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use dmm_problems::conservation::{self, Conservation};
+use dmm_problems::problem::{Method, Problem, Run};
+use dmm_problems::registry;
+
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{self, Csv, Table};
+use crate::progress;
+
+/// What to measure.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Names of the problems [default: all].
+    problems: Vec<String>,
+    /// Step size.
+    #[arg(long, default_value_t = 1e-3, allow_negative_numbers = true)]
+    step: f64,
+    /// Number of steps.
+    #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// Directory of the results.
+    #[arg(long, default_value = "output")]
+    out: PathBuf,
+}
+
+/// Measures and prints a row a problem.
+pub(crate) fn conserve(arguments: &Arguments) -> Result<(), Failure> {
+    let problems = match arguments.problems.as_slice() {
+        [] => registry::all(),
+        names => names
+            .iter()
+            .map(|name| input::problem(name, &[]))
+            .collect::<Result<_, _>>()?,
+    };
+    output::directory(&arguments.out)?;
+    let mut csv = Csv::create(
+        arguments.out.join("conservation.csv"),
+        [
+            "problem",
+            "steps",
+            "transitions",
+            "ulps_corrected",
+            "level_error_corrected",
+            "relative_drift_uncorrected",
+            "level_error_uncorrected",
+        ],
+    )?;
+    let mut table = Table::new(
+        1,
+        [
+            "problem",
+            "steps",
+            "transitions",
+            "max |ψ−ψ_ref| (ulp)",
+            "level error",
+            "uncorrected: drift",
+            "level error",
+        ],
+    );
+    let mut stopped = None;
+    for problem in &problems {
+        let row = match row(&**problem, arguments) {
+            Ok(row) => row,
+            Err(Failure::Stopped(reason)) => {
+                // the others go on
+                stopped.get_or_insert(format!("{}: {reason}", problem.card().name));
+                continue;
+            }
+            Err(failure) => return Err(failure),
+        };
+        let (kept, bare) = row;
+        let steps = kept.statistics.steps.to_string();
+        let transitions = kept.statistics.transitions.to_string();
+        let name = problem.card().name.to_owned();
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+        csv.row([
+            name.clone(),
+            steps.clone(),
+            transitions.clone(),
+            kept.ulps.to_string(),
+            number(kept.level_error),
+            bare.relative().to_string(),
+            number(bare.level_error),
+        ])?;
+        let short =
+            |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1e}"));
+        table.row([
+            name,
+            steps,
+            transitions,
+            format!("{:.2}", kept.ulps),
+            short(kept.level_error),
+            format!("{:.1e}", bare.relative()),
+            short(bare.level_error),
+        ]);
+    }
+    table.print()?;
+    writeln!(
+        std::io::stdout(),
+        "drift: max |ψ−ψ_ref| within segments over the size of ψ's terms; level error: max \
+         |ψ_ref − exact level| where it is known"
+    )?;
+    output::announce(&[csv.finish()?])?;
+    match stopped {
+        Some(reason) => Err(Failure::Stopped(reason)),
+        None => Ok(()),
+    }
+}
+
+/// With and without the correction of the level.
+fn row(
+    problem: &dyn Problem,
+    arguments: &Arguments,
+) -> Result<(Conservation, Conservation), Failure> {
+    let t_end = arguments.step * arguments.steps as f64;
+    let run = Run {
+        step_size: arguments.step,
+        t_end: problem
+            .card()
+            .longest
+            .map_or(t_end, |longest| t_end.min(longest)),
+        ..problem.default_run()
+    };
+    let bare = Run {
+        method: Method::Symmetric {
+            level_correction: false,
+        },
+        ..run.clone()
+    };
+    let bar = progress::bar((2.0 * run.t_end) as u64, 2.0 * arguments.steps as f64);
+    bar.set_message(problem.card().name);
+    let kept = conservation::measure(problem, &run, &mut |t| bar.set_position(t as u64))?;
+    let offset = run.t_end;
+    let bare = conservation::measure(problem, &bare, &mut |t| {
+        bar.set_position((offset + t) as u64)
+    })?;
+    bar.finish_and_clear();
+    Ok((kept, bare))
+}

@@ -1,0 +1,259 @@
+//! `pws converge PROBLEM`
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use dmm_problems::convergence::{self, Plan, Study, fitted_order};
+use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
+use dmm_problems::problem::{Method, Problem};
+use dmm_problems::reference::Reference;
+
+use crate::failure::Failure;
+use crate::input::{self, FormatOption};
+use crate::output::{self, Csv, Table};
+use crate::progress;
+
+/// What to measure.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Name of the problem (see `pws list`).
+    problem: String,
+    /// Numbers of transitions after which errors are measured [default: 0,10,20,30, or fewer
+    /// where there are fewer].
+    #[arg(long, value_delimiter = ',')]
+    after: Option<Vec<usize>>,
+    /// The largest step size.
+    #[arg(long, default_value_t = 1.0 / 64.0, allow_negative_numbers = true)]
+    step: f64,
+    /// How often it is halved.
+    #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=20))]
+    halvings: u32,
+    /// Time at which states are compared, where there are no transitions.
+    #[arg(long, default_value_t = 10.0, allow_negative_numbers = true)]
+    end: f64,
+    /// A parameter; may be repeated.
+    #[arg(long = "param", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// The initial state; states not named keep the problem's value.
+    #[arg(long, value_name = "x=1,y=2", allow_hyphen_values = true)]
+    initial: Option<String>,
+    /// Directory of the results [default: output/PROBLEM].
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// How pictures are stored.
+    #[arg(long, value_enum, default_value = "svg")]
+    format: FormatOption,
+}
+
+/// Measures, prints the table, writes CSV and picture.
+pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
+    let problem = input::problem(&arguments.problem, &arguments.parameters)?;
+    let problem = &*problem;
+    let card = problem.card();
+    let initial = input::initial(problem, arguments.initial.as_deref())?;
+    if !(arguments.step > 0.0 && arguments.step.is_finite()) {
+        return Err(Failure::Request(format!(
+            "step size: {} (must be positive and finite)",
+            arguments.step
+        )));
+    }
+    let plan = Plan {
+        method: Method::SYMMETRIC,
+        after: arguments
+            .after
+            .clone()
+            .unwrap_or_else(|| default_after(problem)),
+        step_sizes: halved(arguments.step, arguments.halvings),
+        t_end: if problem.interfaces().is_empty() {
+            arguments.end
+        } else {
+            card.t_end
+        },
+        initial,
+    };
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("output").join(card.name));
+    output::directory(&out)?;
+    let steps = plan.t_end
+        / plan
+            .step_sizes
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
+    let bar = progress::bar(plan.step_sizes.len() as u64, 2.0 * steps);
+    let study = convergence::study(problem, &plan, || bar.inc(1))?;
+    bar.finish_and_clear();
+    let csv = write(&out.join("convergence.csv"), problem, &study)?;
+    print(problem, &study)?;
+    output::announce(&[csv])?;
+    let picture = output::picture(
+        &out,
+        "convergence",
+        &picture(problem, &study),
+        arguments.format.into(),
+    )?;
+    output::announce(&[picture])?;
+    match study.stopped.first() {
+        Some(stopped) => Err(Failure::Stopped(stopped.to_string())),
+        None => Ok(()),
+    }
+}
+
+/// `step`, `step`/2, …
+pub(crate) fn halved(step: f64, halvings: u32) -> Vec<f64> {
+    (0..=halvings)
+        .map(|k| step * 0.5f64.powi(k as i32))
+        .collect()
+}
+
+fn default_after(problem: &dyn Problem) -> Vec<usize> {
+    if problem.interfaces().is_empty() {
+        return vec![0];
+    }
+    let total = match Reference::of(problem) {
+        Ok(Some(reference)) => reference.crossings_total as usize,
+        _ => 0,
+    };
+    convergence::default_after(total)
+}
+
+/// The measured quantities of a study: transitions, name, errors.
+pub(crate) fn quantities(problem: &dyn Problem, study: &Study) -> Vec<(usize, String, Vec<f64>)> {
+    let mut quantities = Vec::new();
+    for row in &study.rows {
+        if let Some(crossing) = &row.crossing {
+            let name = format!("time of crossing {}", crossing.number);
+            quantities.push((row.transitions, name, crossing.errors.clone()));
+        }
+        for (state, errors) in problem.states().iter().zip(&row.components) {
+            let name = format!("{state} at t = {:.4}", row.t);
+            quantities.push((row.transitions, name, errors.clone()));
+        }
+    }
+    quantities
+}
+
+fn write(path: &Path, problem: &dyn Problem, study: &Study) -> Result<PathBuf, Failure> {
+    let mut csv = Csv::create(
+        path.to_owned(),
+        ["transitions", "quantity", "step_size", "error"],
+    )?;
+    for (transitions, name, errors) in quantities(problem, study) {
+        for (tau, error) in study.step_sizes.iter().zip(errors) {
+            csv.row([
+                transitions.to_string(),
+                name.clone(),
+                tau.to_string(),
+                error.to_string(),
+            ])?;
+        }
+    }
+    csv.finish()
+}
+
+fn print(problem: &dyn Problem, study: &Study) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    writeln!(
+        out,
+        "{}: errors against {}",
+        problem.card().name,
+        study.origin.describe()
+    )?;
+    let (first, last) = (study.step_sizes.first(), study.step_sizes.last());
+    let (Some(first), Some(last)) = (first, last) else {
+        return Ok(());
+    };
+    let mut table = Table::new(
+        0,
+        [
+            "transitions".to_owned(),
+            "quantity".to_owned(),
+            format!("error, τ = {first}"),
+            format!("error, τ = {last:.3e}"),
+            "order".to_owned(),
+        ],
+    );
+    for (transitions, name, errors) in quantities(problem, study) {
+        let at = |error: Option<&f64>| error.map_or(String::new(), |error| format!("{error:.3e}"));
+        table.row([
+            transitions.to_string(),
+            name,
+            at(errors.first()),
+            at(errors.last()),
+            order(study, &errors),
+        ]);
+    }
+    table.print()?;
+    Ok(())
+}
+
+/// Errors below this are rounding: the quantity is exact, and there is no order to fit.
+const ROUNDING: f64 = 1e-13;
+
+/// The fitted order.
+pub(crate) fn order(study: &Study, errors: &[f64]) -> String {
+    match errors.iter().all(|error| *error < ROUNDING) {
+        true => "exact".to_owned(),
+        false => format!("{:.3}", fitted_order(&study.step_sizes, errors)),
+    }
+}
+
+fn picture(problem: &dyn Problem, study: &Study) -> Picture {
+    let axes = |what: &str| {
+        (
+            Axis::new("step size τ", Scale::Octaves),
+            Axis::new(what, Scale::Decades),
+        )
+    };
+    let curve = |errors: &[f64]| {
+        study
+            .step_sizes
+            .iter()
+            .copied()
+            .zip(errors.iter().copied())
+            .collect()
+    };
+    let mut panels = Vec::new();
+    if study.rows.iter().any(|row| row.crossing.is_some()) {
+        let (x, y) = axes("|crossing time − exact|");
+        let mut panel = Panel::new("crossing time", x, y);
+        for (k, row) in study.rows.iter().enumerate() {
+            if let Some(crossing) = &row.crossing {
+                let label = Some(format!("crossing {}", crossing.number));
+                panel.curve(
+                    label,
+                    curve(&crossing.errors),
+                    Stroke::Marked,
+                    COLOURS[k % COLOURS.len()],
+                );
+            }
+        }
+        panel.slope(2, 0);
+        panels.push(panel);
+    }
+    for (state, name) in problem.states().iter().enumerate() {
+        let (x, y) = axes(&format!("|{name} − exact|"));
+        let mut panel = Panel::new(format!("{name} before and after transitions"), x, y);
+        for (k, row) in study.rows.iter().enumerate() {
+            let label = Some(match row.transitions {
+                0 if problem.interfaces().is_empty() => format!("t = {}", row.t),
+                0 => "before".to_owned(),
+                many => format!("after {many}"),
+            });
+            panel.curve(
+                label,
+                curve(&row.components[state]),
+                Stroke::Marked,
+                COLOURS[k % COLOURS.len()],
+            );
+        }
+        panel.slope(2, 0);
+        panels.push(panel);
+    }
+    Picture {
+        columns: panels.len().min(3),
+        ..Picture::row(problem.card().title, panels)
+    }
+}

@@ -1,0 +1,79 @@
+//! Why a command ends without success.
+
+use std::io;
+use std::path::Path;
+
+use dmm_problems::convergence::StudyError;
+use dmm_problems::registry::Unknown;
+use thiserror::Error;
+
+/// Why a command ends without success.
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    /// The request makes no sense.
+    #[error("{0}")]
+    Request(String),
+    /// A name does not exist.
+    #[error(transparent)]
+    Unknown(#[from] Unknown),
+    /// A file cannot be written.
+    #[error("cannot write {path}: {error}")]
+    Write {
+        /// The file.
+        path: String,
+        /// Why.
+        error: io::Error,
+    },
+    /// The integration stopped before its end.
+    #[error("{0}")]
+    Stopped(String),
+    /// Nobody reads standard output any more.
+    #[error("standard output is closed")]
+    ReaderGone,
+}
+
+impl Failure {
+    /// The exit status.
+    pub(crate) fn status(&self) -> u8 {
+        match self {
+            Self::Stopped(_) => 1,
+            Self::ReaderGone => 0,
+            Self::Request(_) | Self::Unknown(_) | Self::Write { .. } => 2,
+        }
+    }
+
+    /// That `path` cannot be written.
+    pub(crate) fn write(path: &Path, error: impl Into<io::Error>) -> Self {
+        Self::Write {
+            path: path.display().to_string(),
+            error: error.into(),
+        }
+    }
+}
+
+impl From<dmm_runtime::Error> for Failure {
+    fn from(error: dmm_runtime::Error) -> Self {
+        match error {
+            dmm_runtime::Error::InvalidInput { .. } | dmm_runtime::Error::NoRegion { .. } => {
+                Self::Request(error.to_string())
+            }
+            _ => Self::Stopped(error.to_string()),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Input(_) | StudyError::TooFew { .. } => Self::Request(error.to_string()),
+            _ => Self::Stopped(error.to_string()),
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    /// Of standard output: everything else names its file.
+    fn from(_: io::Error) -> Self {
+        Self::ReaderGone
+    }
+}

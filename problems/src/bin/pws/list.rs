@@ -1,0 +1,28 @@
+//! `pws list`
+
+use dmm_problems::registry;
+
+use crate::failure::Failure;
+use crate::output::Table;
+
+/// Prints a line for each problem.
+pub(crate) fn list() -> Result<(), Failure> {
+    let mut table = Table::new(
+        5,
+        ["problem", "states", "interface", "conserved", "what it is"],
+    );
+    for problem in registry::all() {
+        let interfaces = match problem.interfaces() {
+            [] => "none".to_owned(),
+            names => names.join(", "),
+        };
+        table.row([
+            problem.card().name.to_owned(),
+            problem.states().join(", "),
+            interfaces,
+            problem.conserved_names(0).join(", "),
+            problem.card().title.to_owned(),
+        ]);
+    }
+    Ok(table.print()?)
+}

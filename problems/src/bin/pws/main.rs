@@ -1,0 +1,101 @@
+//! `pws`: runs the reference problems and the studies on them.
+//!
+//! Results are CSV files and pictures in a directory; tables and summaries go to standard
+//! output. What is wrong is one line on standard error: exit status 2 if the request was
+//! (options, names, files), 1 if the integration stopped before its end.
+
+mod conserve;
+mod converge;
+mod failure;
+mod input;
+mod list;
+mod output;
+mod paper;
+mod portrait;
+mod progress;
+mod run;
+mod show;
+
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::failure::Failure;
+
+/// Conservative integration of piecewise-smooth systems: reference problems and studies.
+#[derive(Parser)]
+#[command(name = "pws", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// List the problems.
+    List,
+    /// Show a problem: declaration, multipliers, discrete vector field and chosen strategy.
+    Show(show::Arguments),
+    /// Integrate a problem; write points, transitions and pictures.
+    Run(run::Arguments),
+    /// Measure errors against the step size, before and after transitions.
+    Converge(converge::Arguments),
+    /// Measure how well every problem's conserved quantities are kept over a long run.
+    Conserve(conserve::Arguments),
+    /// Reproduce Figs 2-8 of Hirani, Wan & Wojtalewicz.
+    Paper(paper::Arguments),
+}
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return refuse(&error),
+    };
+    let result = match &arguments.command {
+        Command::List => list::list(),
+        Command::Show(arguments) => show::show(arguments),
+        Command::Run(arguments) => run::run(arguments),
+        Command::Converge(arguments) => converge::converge(arguments),
+        Command::Conserve(arguments) => conserve::conserve(arguments),
+        Command::Paper(arguments) => paper::paper(arguments),
+    };
+    match result {
+        Ok(()) | Err(Failure::ReaderGone) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("pws: {failure}");
+            ExitCode::from(failure.status())
+        }
+    }
+}
+
+/// Help goes to standard output as `clap` prints it; a bad option becomes one line.
+fn refuse(error: &clap::Error) -> ExitCode {
+    if matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp
+            | ErrorKind::DisplayVersion
+            | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+    ) {
+        let _ = error.print();
+        return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+    }
+    let text = error.to_string();
+    let paragraphs = text.split("\n\n").map(str::trim);
+    let said: Vec<String> = paragraphs
+        .filter(|paragraph| !paragraph.starts_with("Usage:") && !paragraph.starts_with("For more"))
+        .map(|paragraph| paragraph.split_whitespace().collect::<Vec<_>>().join(" "))
+        .filter(|paragraph| !paragraph.is_empty())
+        .collect();
+    let mut said = said.join("; ");
+    if error.kind() == ErrorKind::InvalidSubcommand {
+        let command = Arguments::command();
+        let names: Vec<&str> = command
+            .get_subcommands()
+            .map(clap::Command::get_name)
+            .collect();
+        said.push_str(&format!(" (there are {})", names.join(", ")));
+    }
+    eprintln!("pws: {}", said.strip_prefix("error: ").unwrap_or(&said));
+    ExitCode::from(2)
+}

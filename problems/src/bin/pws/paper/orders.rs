@@ -1,0 +1,170 @@
+//! Figs 3, 4, 6 and 7: errors of crossing times and states against the step size.
+
+use dmm_problems::convergence::{self, Plan, Study};
+use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
+use dmm_problems::problem::{Method, Problem};
+
+use super::Report;
+use crate::converge::{self, halved, quantities};
+use crate::failure::Failure;
+use crate::input;
+use crate::output::{self, Csv};
+
+/// Transitions after which errors are measured, as in the paper.
+const AFTER: [usize; 4] = [0, 10, 20, 30];
+/// Exponents p of the perturbations, as in the paper, each with the factor c, the largest step
+/// size, and what it does. For p = 1 the steps are so small that the perturbation
+/// outweighs the scheme's own error, and c so small that the perturbed elliptic orbits stay
+/// closed for 30 transitions.
+const PERTURBATIONS: [(i32, f64, f64, &str); 3] = [
+    (1, 1.0 / 16.0, 1.0 / 4096.0, "crossings late by τ/16"),
+    (2, 1.0, 1.0 / 64.0, "crossings late by τ²"),
+    (15, 1.0, 1.0 / 64.0, "crossings late by τ¹⁵"),
+];
+const HALVINGS: u32 = 6;
+
+fn plan(problem: &dyn Problem, method: Method, step: f64) -> Plan {
+    Plan {
+        method,
+        initial: problem.card().initial.to_vec(),
+        after: AFTER.to_vec(),
+        step_sizes: halved(step, HALVINGS),
+        t_end: problem.card().t_end,
+    }
+}
+
+fn axes(what: &str) -> (Axis, Axis) {
+    (
+        Axis::new("step size τ", Scale::Octaves),
+        Axis::new(what, Scale::Decades),
+    )
+}
+
+fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
+    study
+        .step_sizes
+        .iter()
+        .copied()
+        .zip(errors.iter().copied())
+        .collect()
+}
+
+fn order(study: &Study, errors: &[f64]) -> String {
+    format!("order {}", converge::order(study, errors))
+}
+
+/// Figs 3 and 6: the error of the crossing time after 10, 20, 30 transitions.
+pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Result<(), Failure> {
+    let problem = input::problem(name, &[])?;
+    let study = convergence::study(
+        &*problem,
+        &plan(&*problem, Method::SYMMETRIC, 1.0 / 64.0),
+        || (),
+    )?;
+    let file = format!("fig{number}_{name}_crossing_time");
+    let path = report.out.join(format!("{file}.csv"));
+    let mut csv = Csv::create(path, ["crossing", "exact_time", "step_size", "error"])?;
+    let (x, y) = axes("|crossing time − exact|");
+    let mut panel = Panel::new(problem.card().title, x, y);
+    for (k, row) in study.rows.iter().enumerate() {
+        let Some(crossing) = &row.crossing else {
+            continue;
+        };
+        for (tau, error) in study.step_sizes.iter().zip(&crossing.errors) {
+            csv.row([
+                crossing.number.to_string(),
+                crossing.t.to_string(),
+                tau.to_string(),
+                error.to_string(),
+            ])?;
+        }
+        let label = Some(format!("crossing {}", crossing.number));
+        panel.curve(
+            label,
+            curve(&study, &crossing.errors),
+            Stroke::Marked,
+            COLOURS[k],
+        );
+        let what = format!("{name}: time of crossing {}", crossing.number);
+        report.row(number, what, "order 2", order(&study, &crossing.errors));
+    }
+    panel.slope(2, 0);
+    report.files.push(csv.finish()?);
+    for (transitions, quantity, errors) in quantities(&*problem, &study) {
+        if !quantity.starts_with("time") {
+            let what = format!("{name}: {quantity}, after {transitions}");
+            report.row(number + 1, what, "order 2", order(&study, &errors));
+        }
+    }
+    let picture = Picture::row(
+        format!("Fig. {number}: error of the crossing time"),
+        vec![panel],
+    );
+    let path = output::picture(&report.out, &file, &picture, report.format)?;
+    report.files.push(path);
+    Ok(())
+}
+
+/// Figs 4 and 7: the error of the state with crossings located too late by c·τᵖ.
+pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(), Failure> {
+    let problem = input::problem(name, &[])?;
+    let file = format!("fig{number}_{name}_perturbed");
+    let path = report.out.join(format!("{file}.csv"));
+    let mut csv = Csv::create(
+        path,
+        [
+            "p",
+            "amplitude",
+            "transitions",
+            "t",
+            "step_size",
+            "error_norm",
+        ],
+    )?;
+    let mut panels = Vec::new();
+    for (power, amplitude, step, title) in PERTURBATIONS {
+        let method = Method::Perturbed { amplitude, power };
+        let study = convergence::study(&*problem, &plan(&*problem, method, step), || ())?;
+        let (x, y) = axes("‖x̂ − x‖");
+        let mut panel = Panel::new(title, x, y);
+        for (k, row) in study.rows.iter().enumerate() {
+            let norms = row.norms();
+            for (tau, error) in study.step_sizes.iter().zip(&norms) {
+                csv.row([
+                    power.to_string(),
+                    amplitude.to_string(),
+                    row.transitions.to_string(),
+                    row.t.to_string(),
+                    tau.to_string(),
+                    error.to_string(),
+                ])?;
+            }
+            let (when, paper) = match row.transitions {
+                0 => ("before".to_owned(), "order 2"),
+                many if power == 1 => (format!("after {many}"), "order 1"),
+                many => (format!("after {many}"), "order 2"),
+            };
+            let what = format!("{name}: p = {power}, ‖x̂ − x‖ {when} transitions");
+            report.row(number, what, paper, order(&study, &norms));
+            panel.curve(
+                Some(when),
+                curve(&study, &norms),
+                Stroke::Marked,
+                COLOURS[k],
+            );
+        }
+        // with p = 1 the error before the first transition is of another order
+        panel.slope(power.min(2), usize::from(power == 1));
+        panels.push(panel);
+    }
+    report.files.push(csv.finish()?);
+    let title = format!("Fig. {number}: error before and after 10, 20, 30 transitions, {name}");
+    let path = output::picture(
+        &report.out,
+        &file,
+        &Picture::row(title, panels),
+        report.format,
+    )?;
+    report.files.push(path);
+    Ok(())
+}

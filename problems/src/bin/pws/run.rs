@@ -1,0 +1,206 @@
+//! `pws run PROBLEM`
+
+mod recorder;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::ValueEnum;
+use dmm_problems::picture::{Format, Picture};
+use dmm_problems::problem::{Method, Problem, Run};
+use dmm_runtime::Statistics;
+
+use crate::failure::Failure;
+use crate::input::{self, FormatOption};
+use crate::output;
+use crate::portrait;
+use recorder::{Finished, Recorder};
+
+/// What to integrate.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Name of the problem (see `pws list`).
+    problem: String,
+    /// The scheme.
+    #[arg(long, value_enum, default_value = "symmetric")]
+    scheme: SchemeOption,
+    /// Step size [default: the problem's].
+    #[arg(long, allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// End time [default: the problem's].
+    #[arg(long, allow_negative_numbers = true)]
+    end: Option<f64>,
+    /// A parameter; may be repeated.
+    #[arg(long = "param", value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// The initial state; states not named keep the problem's value.
+    #[arg(long, value_name = "x=1,y=2", allow_hyphen_values = true)]
+    initial: Option<String>,
+    /// Write every n-th step to the file of points; transitions and both ends always.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    every: u64,
+    /// The two states of the phase portrait [default: the first two].
+    #[arg(long, value_name = "x,y")]
+    plane: Option<String>,
+    /// Directory of the results [default: output/PROBLEM].
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// How pictures are stored.
+    #[arg(long, value_enum, default_value = "svg")]
+    format: FormatOption,
+}
+
+/// Schemes that can be asked for.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum SchemeOption {
+    /// The conservative scheme of order 2.
+    Symmetric,
+    /// The same without the correction of the level.
+    SymmetricUncorrected,
+    /// The explicit midpoint rule, for comparison: does not conserve.
+    ExplicitMidpoint,
+}
+
+impl From<SchemeOption> for Method {
+    fn from(option: SchemeOption) -> Self {
+        match option {
+            SchemeOption::Symmetric => Self::SYMMETRIC,
+            SchemeOption::SymmetricUncorrected => Self::Symmetric {
+                level_correction: false,
+            },
+            SchemeOption::ExplicitMidpoint => Self::ExplicitMidpoint,
+        }
+    }
+}
+
+/// Integrates, writes, summarises.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let problem = input::problem(&arguments.problem, &arguments.parameters)?;
+    let problem = &*problem;
+    let defaults = problem.default_run();
+    let run = Run {
+        method: arguments.scheme.into(),
+        step_size: arguments.step.unwrap_or(defaults.step_size),
+        initial: input::initial(problem, arguments.initial.as_deref())?,
+        t_end: arguments.end.unwrap_or(defaults.t_end),
+        output_times: Vec::new(),
+    };
+    let plane = plane(problem, arguments.plane.as_deref())?;
+    check(problem, &run)?;
+    let default_out = || Path::new("output").join(problem.card().name);
+    let out = arguments.out.clone().unwrap_or_else(default_out);
+    output::directory(&out)?;
+    let mut recorder = Recorder::create(problem, &run, arguments.every, &out)?;
+    let result = problem.integrate(&run, &mut recorder);
+    // whatever happened, what was computed is stored
+    let finished = recorder.finish()?;
+    let pictures = pictures(problem, &finished, plane, &out, arguments.format.into());
+    summarise(problem, &run, &finished, result.as_ref().ok())?;
+    output::announce(&finished.files)?;
+    output::announce(&pictures?)?;
+    result?;
+    Ok(())
+}
+
+/// Refuses what the runtime would refuse, before any file is touched.
+fn check(problem: &dyn Problem, run: &Run) -> Result<(), Failure> {
+    let start = Run {
+        t_end: 0.0,
+        ..run.clone()
+    };
+    if !(run.t_end.is_finite() && run.t_end > 0.0) {
+        return Err(Failure::Request(format!(
+            "end time: {} (must be positive and finite)",
+            run.t_end
+        )));
+    }
+    problem.integrate_silently(&start)?;
+    Ok(())
+}
+
+fn plane(problem: &dyn Problem, given: Option<&str>) -> Result<(usize, usize), Failure> {
+    let Some(text) = given else {
+        return Ok((0, 1.min(problem.states().len() - 1)));
+    };
+    match text.split_once(',') {
+        Some((x, y)) => Ok((
+            input::state(problem, x.trim())?,
+            input::state(problem, y.trim())?,
+        )),
+        None => Err(Failure::Request(format!("`{text}` is not of the form x,y"))),
+    }
+}
+
+fn pictures(
+    problem: &dyn Problem,
+    finished: &Finished,
+    plane: (usize, usize),
+    out: &Path,
+    format: Format,
+) -> Result<Vec<PathBuf>, Failure> {
+    let kept = &finished.kept;
+    let shown = match kept.last() {
+        Some(last) if last.t < finished.t * 0.99 => format!(" (until t = {:.3})", last.t),
+        _ => String::new(),
+    };
+    let title = problem.card().title;
+    let mut phase = portrait::phase(problem, kept, plane, &format!("phase portrait{shown}"));
+    phase.equal_aspect = true;
+    let series = portrait::time_series(problem, kept, &format!("time series{shown}"));
+    let errors = portrait::errors(&finished.errors, "ψ − ψ at entry", "conservation error");
+    let wide = |panel| Picture {
+        panel_size: (760.0, 400.0),
+        ..Picture::row(title, vec![panel])
+    };
+    let square = |panel| Picture {
+        panel_size: (560.0, 560.0),
+        ..Picture::row(title, vec![panel])
+    };
+    Ok(vec![
+        output::picture(out, "phase", &square(phase), format)?,
+        output::picture(out, "series", &wide(series), format)?,
+        output::picture(out, "conservation", &wide(errors), format)?,
+    ])
+}
+
+/// Steps of the run that is timed.
+const LARGEST_TIMED: f64 = 1e6;
+
+fn summarise(
+    problem: &dyn Problem,
+    run: &Run,
+    finished: &Finished,
+    statistics: Option<&Statistics>,
+) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{}: {}", problem.card().name, problem.card().title)?;
+    writeln!(
+        out,
+        "reached t = {} with step size {}",
+        finished.t, run.step_size
+    )?;
+    writeln!(out, "transitions: {}", finished.transitions)?;
+    writeln!(
+        out,
+        "max |ψ − ψ_ref| within segments: {:.2e} ({:.2} ulp of the size of ψ's terms)",
+        finished.worst.0, finished.worst.1
+    )?;
+    let Some(statistics) = statistics else {
+        return Ok(());
+    };
+    let timed = Run {
+        t_end: run.t_end.min(LARGEST_TIMED * run.step_size),
+        ..run.clone()
+    };
+    let start = Instant::now();
+    let done = problem.integrate_silently(&timed)?;
+    let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / done.steps.max(1) as f64;
+    let per_step = statistics.newton_iterations as f64 / statistics.steps.max(1) as f64;
+    writeln!(
+        out,
+        "{} steps, {nanoseconds:.1} ns a step, {per_step:.2} Newton iterations a step",
+        statistics.steps
+    )?;
+    Ok(())
+}

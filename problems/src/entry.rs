@@ -1,0 +1,297 @@
+//! A system declared by `pws!` as a [`Problem`]: its dimension hidden, its regions numbered.
+
+use std::ops::ControlFlow;
+
+use dmm_runtime::{
+    Boundary, Error, Flow, FlowVisitor, Integrator, Locator, NewtonLocator, Observer, Point,
+    Scheme, Statistics, Symmetric, System, Time, Transition, Vector,
+};
+
+use crate::midpoint::ExplicitMidpoint;
+use crate::perturbed::Perturbed;
+use crate::problem::{Card, Crossed, Method, Problem, Record, Run, Sink};
+
+/// A system with its card.
+#[derive(Clone, Debug)]
+pub struct Entry<Sys, const N: usize> {
+    card: &'static Card,
+    system: Sys,
+}
+
+impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
+    /// The problem of `card`.
+    pub fn boxed(card: &'static Card) -> Box<dyn Problem> {
+        Box::new(Self {
+            card,
+            system: Sys::default(),
+        })
+    }
+
+    fn region(&self, index: usize) -> Option<Sys::Region> {
+        Sys::REGIONS.get(index).copied()
+    }
+
+    /// A vector of the first N entries; missing ones are NaN, which the runtime refuses.
+    fn vector(x: &[f64]) -> Vector<f64, N> {
+        Vector::from_fn(|i, _| x.get(i).copied().unwrap_or(f64::NAN))
+    }
+
+    fn observe<Sch: Scheme, Loc: Locator>(
+        &self,
+        run: &Run,
+        scheme: Sch,
+        locator: Loc,
+        sink: Option<&mut dyn Sink>,
+    ) -> Result<Statistics, Error> {
+        let problem = Integrator::new(&self.system, scheme)
+            .locator(locator)
+            .initial(0.0, Self::vector(&run.initial));
+        let end = match sink {
+            Some(sink) => problem.observe_until(
+                run.t_end,
+                &mut Relay {
+                    wants_records: sink.wants_records(),
+                    sink,
+                    system: &self.system,
+                    output_times: &run.output_times,
+                    psi: Vec::new(),
+                    size: Vec::new(),
+                    level: Vec::new(),
+                },
+            ),
+            None => problem.observe_until(run.t_end, &mut ()),
+        };
+        end.map(|end| end.statistics)
+    }
+
+    fn dispatch(&self, run: &Run, sink: Option<&mut dyn Sink>) -> Result<Statistics, Error> {
+        let symmetric = Symmetric::step_size(run.step_size);
+        match run.method {
+            Method::Symmetric { level_correction } => {
+                let scheme = symmetric.level_correction(level_correction);
+                self.observe(run, scheme, NewtonLocator, sink)
+            }
+            Method::ExplicitMidpoint => {
+                let scheme = ExplicitMidpoint::step_size(run.step_size);
+                self.observe(run, scheme, NewtonLocator, sink)
+            }
+            Method::Perturbed { amplitude, power } => {
+                self.observe(run, symmetric, Perturbed { amplitude, power }, sink)
+            }
+        }
+    }
+}
+
+/// Tells a [`Sink`] what the runtime tells its observer.
+struct Relay<'a, Sys> {
+    sink: &'a mut dyn Sink,
+    wants_records: bool,
+    system: &'a Sys,
+    output_times: &'a [f64],
+    psi: Vec<f64>,
+    size: Vec<f64>,
+    /// ψ on entry to the region; empty until then.
+    level: Vec<f64>,
+}
+
+fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
+    let is_it = |candidate: &Sys::Region| *candidate == region;
+    Sys::REGIONS.iter().position(is_it).unwrap_or_default()
+}
+
+impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Relay<'_, Sys> {
+    fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
+        if !self.wants_records {
+            return ControlFlow::Continue(());
+        }
+        let Point { t, time, x, region } = *point;
+        let (psi, size) = (&mut self.psi, &mut self.size);
+        self.system.visit(region, Conserved { time, x, psi, size });
+        if self.level.is_empty() {
+            self.level.clone_from(&self.psi);
+        }
+        self.sink.record(&Record {
+            t,
+            x: x.as_slice(),
+            region: index_of::<Sys, N>(region),
+            psi: &self.psi,
+            size: &self.size,
+            level: &self.level,
+        })
+    }
+
+    fn transition(&mut self, transition: &Transition<Sys::Region, N>) -> ControlFlow<()> {
+        self.level.clear();
+        self.size.clear();
+        self.sink.transition(&Crossed {
+            t: transition.t,
+            x: transition.x.as_slice().to_vec(),
+            interface: transition.interface,
+            from: index_of::<Sys, N>(transition.from),
+            to: index_of::<Sys, N>(transition.to),
+            rate_from: transition.rate_from,
+            rate_to: transition.rate_to,
+        })
+    }
+
+    fn next_output(&self) -> Option<f64> {
+        self.output_times.first().copied()
+    }
+
+    fn output(&mut self, point: &Point<Sys::Region, N>) {
+        self.output_times = self.output_times.get(1..).unwrap_or_default();
+        self.sink.output(point.t, point.x.as_slice());
+    }
+}
+
+/// ψ and the largest size of its terms so far.
+struct Conserved<'a, const N: usize> {
+    time: Time,
+    x: Vector<f64, N>,
+    psi: &'a mut Vec<f64>,
+    size: &'a mut Vec<f64>,
+}
+
+impl<const N: usize> FlowVisitor<N> for Conserved<'_, N> {
+    type Output = ();
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) {
+        let Time { value, remainder } = self.time;
+        let mut psi = flow.conserved(value, &self.x);
+        if remainder != 0.0 && !F::AUTONOMOUS {
+            // the digits of the time that a double cannot hold: ∂ₜψ = −∇ψ·f
+            let (_, multiplier) = flow.multiplier(value, &self.x);
+            psi -= multiplier * flow.vector_field(value, &self.x) * remainder;
+        }
+        self.psi.clear();
+        self.psi.extend(psi.iter());
+        self.size.resize(M, 0.0);
+        let size = flow.conserved_size(value, &self.x);
+        for (largest, now) in self.size.iter_mut().zip(size.iter()) {
+            *largest = largest.max(*now);
+        }
+    }
+}
+
+/// f
+struct Field<const N: usize> {
+    t: f64,
+    x: Vector<f64, N>,
+}
+
+impl<const N: usize> FlowVisitor<N> for Field<N> {
+    type Output = Vec<f64>;
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Vec<f64> {
+        flow.vector_field(self.t, &self.x).as_slice().to_vec()
+    }
+}
+
+/// g
+struct Switching<const N: usize> {
+    interface: usize,
+    t: f64,
+    x: Vector<f64, N>,
+}
+
+impl<const N: usize> FlowVisitor<N> for Switching<N> {
+    type Output = f64;
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> f64 {
+        flow.boundary()
+            .switching_function(self.interface, self.t, &self.x)
+    }
+}
+
+impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
+    fn card(&self) -> &Card {
+        self.card
+    }
+
+    fn system_name(&self) -> &'static str {
+        Sys::NAME
+    }
+
+    fn declaration(&self) -> &'static str {
+        Sys::DECLARATION
+    }
+
+    fn listing(&self) -> &'static str {
+        Sys::LISTING
+    }
+
+    fn states(&self) -> &'static [&'static str] {
+        const { &Sys::STATES }
+    }
+
+    fn interfaces(&self) -> &'static [&'static str] {
+        Sys::INTERFACES
+    }
+
+    fn regions(&self) -> Vec<&'static str> {
+        Sys::REGIONS
+            .iter()
+            .map(|&region| Sys::region_name(region))
+            .collect()
+    }
+
+    fn conserved_names(&self, region: usize) -> &'static [&'static str] {
+        self.region(region).map_or(&[], Sys::conserved_names)
+    }
+
+    fn region_on_side(&self, sign: f64) -> Option<usize> {
+        let is_there = |region: &Sys::Region| {
+            Sys::sides(*region)
+                .first()
+                .is_some_and(|side| side.sign() == sign)
+        };
+        Sys::REGIONS.iter().position(is_there)
+    }
+
+    fn parameters(&self) -> Vec<(&'static str, f64)> {
+        Sys::PARAMETERS
+            .iter()
+            .copied()
+            .zip(self.system.parameters())
+            .collect()
+    }
+
+    fn set_parameter(&mut self, name: &str, value: f64) -> bool {
+        Sys::PARAMETERS
+            .iter()
+            .position(|&parameter| parameter == name)
+            .and_then(|index| self.system.parameter_mut(index))
+            .map(|parameter| *parameter = value)
+            .is_some()
+    }
+
+    fn has_default_parameters(&self) -> bool {
+        self.system.parameters() == Sys::default().parameters()
+    }
+
+    fn vector_field(&self, region: usize, t: f64, x: &[f64]) -> Vec<f64> {
+        let x = Self::vector(x);
+        self.region(region)
+            .map(|region| self.system.visit(region, Field { t, x }))
+            .unwrap_or_default()
+    }
+
+    fn switching_function(&self, interface: usize, t: f64, x: &[f64]) -> f64 {
+        let x = Self::vector(x);
+        self.region(0).map_or(f64::NAN, |region| {
+            self.system.visit(region, Switching { interface, t, x })
+        })
+    }
+
+    fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error> {
+        self.dispatch(run, Some(sink))
+    }
+
+    fn integrate_silently(&self, run: &Run) -> Result<Statistics, Error> {
+        self.dispatch(run, None)
+    }
+
+    fn duplicate(&self) -> Box<dyn Problem> {
+        Box::new(self.clone())
+    }
+}

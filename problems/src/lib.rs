@@ -1,0 +1,24 @@
+//! Reference problems for conservative integration of piecewise-smooth systems, and the
+//! studies that the program `pws` runs on them.
+//!
+//! - [`systems`]: one file a system, with its source and initial value problem;
+//! - [`problem`]: the same operations on all of them, whatever their dimension, implemented in
+//!   [`entry`] for systems declared by `pws!`;
+//! - [`mod@reference`]: solutions known to 32 digits; [`accurate`]: an independent integrator of
+//!   high order, for what the reference does not list;
+//! - [`convergence`] and [`conservation`]: the studies; [`picture`]: their figures;
+//! - [`midpoint`] and [`perturbed`]: the explicit midpoint scheme and the perturbed locator
+//!   that Hirani, Wan & Wojtalewicz compare with.
+
+pub mod accurate;
+pub mod conservation;
+pub mod convergence;
+pub mod entry;
+pub mod midpoint;
+pub mod perturbed;
+pub mod picture;
+pub mod problem;
+pub mod reference;
+pub mod registry;
+pub mod systems;
+pub mod truth;

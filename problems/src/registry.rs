@@ -1,0 +1,101 @@
+//! All problems, and finding one by name.
+
+use crate::entry::Entry;
+use crate::problem::Problem;
+use crate::systems::*;
+
+/// Every problem, the piecewise-smooth ones first.
+pub fn all() -> Vec<Box<dyn Problem>> {
+    vec![
+        Entry::<Harmonic, 2>::boxed(&harmonic::CARD),
+        Entry::<Elliptic, 2>::boxed(&elliptic::CARD),
+        Entry::<Pendulum, 2>::boxed(&pendulum::CARD),
+        Entry::<LotkaVolterra, 2>::boxed(&lotka_volterra_periodic::CARD),
+        Entry::<Damped, 2>::boxed(&damped::CARD),
+        Entry::<Spiral, 2>::boxed(&spiral::CARD),
+        Entry::<RigidBody, 3>::boxed(&rigid_body::CARD),
+        Entry::<KeplerRefraction, 4>::boxed(&kepler_refraction::CARD),
+        Entry::<Toda, 6>::boxed(&toda::CARD),
+        Entry::<RelativisticOscillator, 2>::boxed(&relativistic_oscillator::CARD),
+        Entry::<HenonHeiles, 4>::boxed(&henon_heiles::CARD),
+        Entry::<PoschlTeller, 2>::boxed(&poschl_teller::CARD),
+        Entry::<SaturatingSpring, 2>::boxed(&saturating_spring::CARD),
+    ]
+}
+
+/// The problem of that name; `-` and `_` are the same, and so are capitals and small letters.
+///
+/// # Errors
+/// [`Unknown`], with the closest name.
+pub fn find(name: &str) -> Result<Box<dyn Problem>, Unknown> {
+    let wanted = name.to_lowercase().replace('-', "_");
+    let problems = all();
+    let closest = closest(&wanted, problems.iter().map(|problem| problem.card().name));
+    problems
+        .into_iter()
+        .find(|problem| problem.card().name == wanted)
+        .ok_or_else(|| Unknown {
+            kind: "problem",
+            name: name.to_owned(),
+            closest,
+        })
+}
+
+/// A name that does not exist.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("unknown {kind} `{name}`{}", suggestion(closest))]
+pub struct Unknown {
+    /// What it should name.
+    pub kind: &'static str,
+    /// The name.
+    pub name: String,
+    /// The closest name that exists, if any is close.
+    pub closest: Option<String>,
+}
+
+fn suggestion(closest: &Option<String>) -> String {
+    match closest {
+        Some(name) => format!("; did you mean `{name}`?"),
+        None => String::new(),
+    }
+}
+
+/// The candidate that resembles `name` most, if any does.
+pub fn closest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<String> {
+    candidates
+        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(similarity, _)| *similarity > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_found() {
+        let names: Vec<_> = all().iter().map(|problem| problem.card().name).collect();
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[..i].contains(name));
+            assert_eq!(find(&name.replace('_', "-")).unwrap().card().name, *name);
+        }
+    }
+
+    #[test]
+    fn unknown_names_have_a_suggestion() {
+        let suggestion = |name| find(name).err().and_then(|unknown| unknown.closest);
+        assert_eq!(suggestion("harmonc").as_deref(), Some("harmonic"));
+        assert_eq!(suggestion("kepler").as_deref(), Some("kepler_refraction"));
+        assert_eq!(suggestion("qqq"), None);
+    }
+
+    #[test]
+    fn cards_fit_their_systems() {
+        for problem in all() {
+            let card = problem.card();
+            assert_eq!(card.initial.len(), problem.states().len(), "{}", card.name);
+            assert!(problem.is_reference_run(card.initial) == card.reference.is_some());
+        }
+    }
+}
