@@ -1,0 +1,98 @@
+//! Conservation on every problem, and the work that it takes.
+//!
+//! The long runs (a million steps each) are the command `pws conserve`; here are ten thousand
+//! steps of each, with the same bounds.
+
+use dmm_problems::conservation::{Conservation, measure};
+use dmm_problems::problem::Method;
+use dmm_problems::registry::{all, find};
+
+const STEPS: f64 = 10_000.0;
+
+fn conservation(name: &str, level_correction: bool, step_size: f64) -> Conservation {
+    let problem = find(name).unwrap();
+    let mut run = problem.default_run();
+    run.method = Method::Symmetric { level_correction };
+    run.step_size = step_size;
+    run.t_end = STEPS * step_size;
+    measure(problem.as_ref(), &run, &mut |_| {}).unwrap()
+}
+
+#[test]
+fn levels_are_kept_to_a_few_units_in_the_last_place() {
+    for problem in all() {
+        let name = problem.card().name;
+        for step_size in [1e-3, 7.3e-3] {
+            // evaluating ψ costs two or three roundings of its terms, the state's own one each
+            let kept = conservation(name, true, step_size);
+            assert!(kept.ulps <= 8.0, "{name}, {step_size}: {} ulp", kept.ulps);
+        }
+    }
+}
+
+#[test]
+fn levels_are_kept_at_coarse_steps() {
+    // some twenty steps a period, where the flow turns ∇ψ by a third of a radian a step
+    for name in [
+        "harmonic",
+        "pendulum",
+        "toda",
+        "henon_heiles",
+        "relativistic_oscillator",
+        "poschl_teller",
+        "saturating_spring",
+        "lotka_volterra_periodic",
+        "rigid_body",
+    ] {
+        let kept = conservation(name, true, 0.2);
+        // ten thousand coarse steps, each with roundings of the size of the state
+        assert!(kept.ulps <= 64.0, "{name}: {} ulp", kept.ulps);
+    }
+}
+
+#[test]
+fn conservation_is_by_construction_not_by_repair() {
+    for problem in all() {
+        let name = problem.card().name;
+        // without correction the roundings of 10⁴ steps add up like a random walk
+        let bare = conservation(name, false, 1e-3);
+        assert!(bare.relative() <= 1e-14, "{name}: {:e}", bare.relative());
+    }
+}
+
+#[test]
+fn explicit_midpoint_does_not_conserve() {
+    // the bounds above mean something: a method of the same order is far from them
+    let problem = find("elliptic").unwrap();
+    let mut run = problem.default_run();
+    run.method = Method::ExplicitMidpoint;
+    run.step_size = 1e-3;
+    run.t_end = 10.0;
+    let midpoint = measure(problem.as_ref(), &run, &mut |_| {}).unwrap();
+    assert!(midpoint.ulps > 1e6);
+}
+
+/// Counters of systems whose formulas have no functions of the platform's library: a change
+/// of them is a change of the algorithm.
+#[test]
+fn the_work_is_what_it_was() {
+    let counts = |name: &str| {
+        let statistics = conservation(name, true, 1e-3).statistics;
+        (
+            statistics.steps,
+            statistics.newton_iterations,
+            statistics.transitions,
+            statistics.bracketed,
+        )
+    };
+    let names = ["harmonic", "elliptic", "rigid_body", "kepler_refraction"];
+    assert_eq!(names.map(counts), COUNTS);
+}
+
+/// Steps, Newton iterations, transitions, crossings that had to be bracketed.
+const COUNTS: [(u64, u64, u64, u64); 4] = [
+    (10004, 0, 4, 0),
+    (10010, 10084, 10, 0),
+    (10001, 10011, 1, 0),
+    (10002, 10018, 2, 0),
+];

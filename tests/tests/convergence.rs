@@ -1,0 +1,98 @@
+//! Fitted orders of accuracy before and after transitions, against solutions known to 30
+//! digits: the scheme's order 2 everywhere, and order 1 where crossings are located with an
+//! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
+
+use dmm_problems::convergence::{Plan, Study, fitted_order, study};
+use dmm_problems::problem::Method;
+use dmm_problems::registry::find;
+
+/// Exponents of step sizes 2⁻ᵏ in the asymptotic regime, far above rounding.
+const HALVINGS: std::ops::RangeInclusive<i32> = 7..=11;
+
+fn measured(
+    name: &str,
+    method: Method,
+    after: &[usize],
+    halvings: std::ops::RangeInclusive<i32>,
+) -> Study {
+    let problem = find(name).unwrap();
+    let plan = Plan {
+        method,
+        initial: problem.card().initial.to_vec(),
+        after: after.to_vec(),
+        step_sizes: halvings.map(|k| 0.5f64.powi(k)).collect(),
+        t_end: problem.card().t_end,
+    };
+    let study = study(problem.as_ref(), &plan, || {}).unwrap();
+    assert!(study.stopped.is_empty(), "{:?}", study.stopped);
+    study
+}
+
+fn assert_order(study: &Study, errors: &[f64], order: f64, tolerance: f64, what: &str) {
+    let fitted = fitted_order(&study.step_sizes, errors);
+    assert!(
+        (fitted - order).abs() <= tolerance,
+        "{what}: order {fitted}, {errors:?}"
+    );
+}
+
+#[test]
+fn the_papers_systems_have_order_2_before_and_after_transitions() {
+    for name in ["harmonic", "elliptic"] {
+        let study = measured(name, Method::SYMMETRIC, &[0, 10, 20, 30], HALVINGS);
+        for row in &study.rows {
+            for (i, errors) in row.components.iter().enumerate() {
+                let what = format!("{name}, component {i} after {}", row.transitions);
+                assert_order(&study, errors, 2.0, 0.03, &what);
+            }
+            let crossing = row.crossing.as_ref().unwrap();
+            let what = format!("{name}, time of crossing {}", crossing.number);
+            assert_order(&study, &crossing.errors, 2.0, 0.03, &what);
+        }
+    }
+}
+
+#[test]
+fn every_strategy_keeps_the_order_across_transitions() {
+    // skew pairing with ln, with sin; minimal norm with M = 1 and M = 3; cross product
+    for name in [
+        "lotka_volterra_periodic",
+        "pendulum",
+        "damped",
+        "kepler_refraction",
+        "rigid_body",
+    ] {
+        let study = measured(name, Method::SYMMETRIC, &[0, 3, 6], HALVINGS);
+        for row in &study.rows {
+            // a single component may happen to have a small leading coefficient
+            let what = format!("{name}, after {}", row.transitions);
+            assert_order(&study, &row.norms(), 2.0, 0.03, &what);
+        }
+    }
+}
+
+#[test]
+fn crossings_located_to_first_order_cost_an_order() {
+    let late = Method::Perturbed {
+        amplitude: 1.0 / 16.0,
+        power: 1,
+    };
+    for name in ["harmonic", "elliptic"] {
+        // so small that the error O(τ) has left the scheme's own O(τ²) behind
+        let study = measured(name, late, &[0, 10], 12..=15);
+        assert_order(
+            &study,
+            &study.rows[0].norms(),
+            2.0,
+            0.03,
+            &format!("{name}, before"),
+        );
+        assert_order(
+            &study,
+            &study.rows[1].norms(),
+            1.0,
+            0.03,
+            &format!("{name}, after 10"),
+        );
+    }
+}

@@ -1,0 +1,34 @@
+//! What the language has room for, but this version does not support.
+
+use dmm_runtime::pws;
+
+pws! {
+    system Sliding {
+        state x;
+        interface wall = x, sliding;
+        region right where wall > 0 { der(x) = -1; }
+        region left where wall < 0 { der(x) = 1; }
+    }
+}
+
+pws! {
+    system Jump {
+        state height, velocity;
+        der(height) = velocity;
+        der(velocity) = -1;
+        on floor falling { velocity = -velocity; }
+    }
+}
+
+pws! {
+    system SeveralInterfaces {
+        state x, y;
+        interface wall = x;
+        interface floor = y;
+        region right where wall > 0 and floor > 0 { der(x) = 1; der(y) = 1; }
+        region left where wall < 0 and floor > 0 { der(x) = 1; der(y) = 1; }
+        region below where floor < 0 { der(x) = 1; der(y) = 1; }
+    }
+}
+
+fn main() {}
