@@ -46,6 +46,7 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
         states: Vec::new(),
         parameters: Vec::new(),
         interfaces: Vec::new(),
+        lacks_region: false,
     };
     resolver.top_level(&declaration);
     let regions = resolver.regions(&declaration);
@@ -75,6 +76,8 @@ struct Resolver<'d> {
     parameters: Vec<Parameter>,
     /// By interface; nothing where its formula is wrong.
     interfaces: Vec<Option<Interface>>,
+    /// Whether a region is missing, and with it whatever it would use.
+    lacks_region: bool,
 }
 
 /// What a formula may depend on.
@@ -210,8 +213,11 @@ impl Resolver<'_> {
         })
     }
 
-    /// What was declared and never used.
+    /// What was declared and never used, as far as everything that could use it is there.
     fn unused(&mut self) {
+        if self.lacks_region {
+            return;
+        }
         for (kind, ident) in self.names.unused() {
             let message = format!("the {kind} `{ident}` is never used; remove it");
             self.error(&ident, message);

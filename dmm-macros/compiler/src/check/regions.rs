@@ -217,6 +217,7 @@ impl Resolver<'_> {
                 "the interface `{interface}` bounds no region: write `region … where {interface} > 0 {{ … }}` and `region … where {interface} < 0 {{ … }}`, with the `der` items in them"
             );
             self.error(interface, message);
+            self.lacks_region = true;
             return;
         }
         // with a wrong pattern it is not known which side was meant
@@ -251,6 +252,7 @@ impl Resolver<'_> {
             }
         }
         if !is_unclear {
+            self.lacks_region |= !missing.is_empty();
             for symbol in missing {
                 let message = format!("there is no region where `{interface} {symbol} 0`");
                 self.error(interface, message);

@@ -443,6 +443,16 @@ fn regions_need_an_interface_that_can_be_crossed() {
 }
 
 #[test]
+fn a_missing_region_does_not_make_its_parameters_unused() {
+    let messages = messages(
+        "state x; param k_above = 1, k_below = 2; interface wall = x;
+         region above where wall > 0 { der(x) = k_above; }",
+    );
+    assert_eq!(messages.len(), 1, "{messages:#?}");
+    assert!(messages[0].contains("there is no region where `wall < 0`"));
+}
+
+#[test]
 fn all_errors_are_reported_together() {
     let messages = messages(
         "state x, y; param k = 1, unused = 2; const c = 1/0; interface wall = zz;
