@@ -13,7 +13,7 @@ use proc_macro::TokenStream;
 /// Nave, 2017), and emits straight-line code for them and their derivatives. A declaration that
 /// is wrong does not compile.
 ///
-/// ```ignore
+/// ```
 /// use dmm_runtime::pws;
 ///
 /// pws! {
@@ -36,6 +36,7 @@ use proc_macro::TokenStream;
 /// }
 ///
 /// let system = Harmonic { k_below: 2.0, ..Default::default() };
+/// assert_eq!(system.k_above, 1.0);
 /// ```
 ///
 /// # Items
