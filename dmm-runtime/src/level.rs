@@ -2,9 +2,8 @@
 //!
 //! A step conserves ψ up to its rounding errors, which add up over a long run. The level is
 //! therefore kept from the entry into a region, and every few steps the residual
-//! r = ψ(t, x) − ψ_ref, a few units in the last place, is taken off the state's rounding
-//! remainder along the rows of Λ: the smallest δx with Λ δx = −r. The correction changes only
-//! the remainder, on which the next solve does not depend.
+//! r = ψ(t, x) − ψ_ref, a few units in the last place, is taken off the state along the rows
+//! of Λ, at once: the smallest δx with Λ δx = −r.
 //!
 //! Where ψ has almost no slope its rounding error must not be amplified into a large
 //! displacement: for one quantity δx = −Λᵀ r/(ΛΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of
