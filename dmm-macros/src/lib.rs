@@ -43,33 +43,145 @@ use proc_macro::TokenStream;
 ///
 /// | item | meaning |
 /// |---|---|
-/// | `state x, y;` | the states, in the order of the vectors that the integrator takes and gives |
-/// | `param k = 1, m = 2.5;` | parameters with their defaults; public fields of the struct |
-/// | `const c = 2*pi;` | a constant: a formula of numbers and constants |
+/// | `state x, q[3];` | the states, in the order of the vectors that the integrator takes and gives; `q[3]` is a group of three |
+/// | `param k = 1, m[3] = [1, 2, 3];` | parameters with their defaults, one for all elements of a group or one each; public fields of the struct |
+/// | `const n = 3;` | a constant: a formula of numbers and constants |
 /// | `let r = sqrt(x^2 + y^2);` | a shared sub-expression |
+/// | `fn V(q, k) = k * q^2/2;` | a function, written out wherever it is called |
 /// | `interface name = g;` | an interface, the zero set of the switching function g |
-/// | `region name where i > 0 { … }` | where the fields and conserved quantities in the block hold; `i > 0 and j < 0` for several interfaces |
+/// | `region name where i > 0 { … }` | where the fields and conserved quantities in the block hold |
 /// | `der(x) = formula;` | ẋ, once a state in every region |
+/// | `hamiltonian H = formula in (q, p), …;` | q̇ = ∂H/∂p and ṗ = −∂H/∂q for each canonical pair, which conserve H unless it depends on `t` |
 /// | `conserved name = formula;` | a conserved quantity ψ, any number a region |
+/// | `assume conserved name = formula;` | the same where the proof is out of the compiler's reach: it is checked at many points instead, and said so in the listing |
+/// | `for i in 0..n { … }` | repeats `der`, `conserved` and `for` items for i = 0, …, n − 1 |
 ///
-/// Without an interface `der` and `conserved` stand in the system itself. Documentation
-/// comments carry over to what is emitted.
+/// A region has `let`, `der`, `hamiltonian`, `conserved` and `for` items. What of them stands at
+/// the top level belongs to every region: a system without interface has all of them there.
+/// Names are declared in front of their use. Documentation comments carry over to what is
+/// emitted.
 ///
 /// # Formulas
 ///
 /// | | |
 /// |---|---|
 /// | operators | `+ - * / ^`; `^` is the power: it binds tighter than the unary minus, and from the right |
-/// | functions | `sqrt exp ln sin cos tan sinh cosh tanh asin acos atan` |
+/// | functions | `sqrt exp ln sin cos tan sinh cosh tanh asin acos atan`, and those declared with `fn` |
 /// | names | states, parameters, constants, `let`s, the time `t`, `pi` |
 /// | numbers | `2`, `0.1`, `1e-3`: exact rationals until code is emitted |
+/// | elements | `q[0]`, `q[i + 1]`, `q[(i + 1) % n]`: an index is a formula of integer constants, counted from 0; `%` is the remainder of such |
+/// | sums | `sum(i in 0..n, q[i]^2)`: the term for i = 0, …, n − 1, added up |
+///
+/// # Groups, loops and sums
+///
+/// A ring of masses as it is written on paper, mᵢ q̈ᵢ = k (qᵢ₊₁ − 2 qᵢ + qᵢ₋₁):
+///
+/// ```
+/// use dmm_runtime::{Integrator, Symmetric, System, pws};
+///
+/// pws! {
+///     /// Masses on a ring of springs.
+///     pub system Ring {
+///         const n = 3;
+///         state q[n], p[n];
+///         param m[n] = [1, 2, 4], k = 1;
+///         for i in 0..n {
+///             der(q[i]) = p[i] / m[i];
+///             der(p[i]) = k * (q[(i + 1) % n] - 2 * q[i] + q[(i + n - 1) % n]);
+///         }
+///         conserved energy = sum(i in 0..n, p[i]^2 / (2 * m[i]) + k/2 * (q[(i + 1) % n] - q[i])^2);
+///         conserved momentum = sum(i in 0..n, p[i]);
+///     }
+/// }
+///
+/// let ring = Ring { k: 2.0, ..Default::default() };
+/// assert_eq!(ring.m, [1.0, 2.0, 4.0]);
+/// assert_eq!(Ring::STATES, ["q[0]", "q[1]", "q[2]", "p[0]", "p[1]", "p[2]"]);
+///
+/// let solution = Integrator::new(&ring, Symmetric::step_size(0.1))
+///     .initial(0.0, [1.0, 0.0, 0.0, 0.0, 1.0, -1.0])
+///     .run_until(10.0)?;
+/// let end = solution.last().ok_or("no solution")?;
+/// assert!((end.x[3] + end.x[4] + end.x[5]).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Functions and Hamiltonians
+///
+/// The vector field of a Hamiltonian is derived, and H is conserved by construction. A pair is
+/// made of two states, two elements, or two groups of the same length.
+///
+/// ```
+/// use dmm_runtime::{Integrator, Symmetric, pws};
+///
+/// pws! {
+///     /// Two masses between walls, with springs that harden.
+///     pub system Springs {
+///         state q[2], p[2];
+///         param beta = 0.5;
+///         fn V(r) = r^2/2 + beta * r^4/4;
+///         hamiltonian energy =
+///             sum(i in 0..2, p[i]^2/2) + V(q[0]) + V(q[1] - q[0]) + V(q[1]) in (q, p);
+///     }
+/// }
+///
+/// let springs = Springs::default();
+/// let potential = |r: f64| r.powi(2) / 2.0 + springs.beta * r.powi(4) / 4.0;
+/// let energy = |x: [f64; 4]| {
+///     (x[2].powi(2) + x[3].powi(2)) / 2.0
+///         + potential(x[0]) + potential(x[1] - x[0]) + potential(x[1])
+/// };
+/// let start = [1.0, -0.5, 0.0, 0.0];
+/// let solution = Integrator::new(&springs, Symmetric::step_size(0.1))
+///     .initial(0.0, start)
+///     .run_until(100.0)?;
+/// let end = solution.last().ok_or("no solution")?;
+/// assert!((energy(end.x.into()) - energy(start)).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # What regions share
+///
+/// ```
+/// use dmm_runtime::{System, pws};
+///
+/// pws! {
+///     /// A mass on a spring that is stiffer outside of the unit circle.
+///     pub system Shell {
+///         state x, y, u, v;
+///         param k_inside = 1, k_outside = 4;
+///         let r_squared = x^2 + y^2;
+///         fn energy_with(k) = (u^2 + v^2 + k * r_squared) / 2;
+///         interface shell = r_squared - 1;
+///         der(x) = u;
+///         der(y) = v;
+///         conserved angular_momentum = x * v - y * u;
+///         region inside where shell < 0 {
+///             der(u) = -k_inside * x;
+///             der(v) = -k_inside * y;
+///             conserved energy = energy_with(k_inside);
+///         }
+///         region outside where shell > 0 {
+///             der(u) = -k_outside * x;
+///             der(v) = -k_outside * y;
+///             conserved energy = energy_with(k_outside);
+///         }
+///     }
+/// }
+///
+/// for region in [ShellRegion::Inside, ShellRegion::Outside] {
+///     assert_eq!(Shell::conserved_names(region), ["angular_momentum", "energy"]);
+/// }
+/// ```
 ///
 /// # What is emitted
 ///
-/// For `pub system Harmonic`: a struct `Harmonic` with a public `f64` field a parameter and
-/// `Default`, an enumeration `HarmonicRegion` of its regions (`HarmonicRegion::Above`;
-/// `Everywhere` without interfaces), and the traits that the runtime's integrators use. The
-/// derived mathematics is the constant `System::LISTING`.
+/// For `pub system Harmonic`: a struct `Harmonic` with a public field a parameter (`f64`, or
+/// `[f64; n]` for a group) and `Default`, an enumeration `HarmonicRegion` of its regions
+/// (`HarmonicRegion::Above`; `Everywhere` without interfaces), and the traits that the runtime's
+/// integrators use. The derived mathematics is the constant `System::LISTING`.
+///
+#[doc = include_str!("../DIAGNOSTICS.md")]
 #[proc_macro]
 pub fn pws(input: TokenStream) -> TokenStream {
     dmm_compiler::compile(input.into()).into()

@@ -2,15 +2,17 @@
 
 use std::ops::ControlFlow;
 
+use crate::end::{End, Halted};
 use crate::error::Error;
-use crate::observer::{Observer, Point};
+use crate::observer::Observer;
+use crate::recording::Recording;
 use crate::scheme::Scheme;
-use crate::solution::{Interrupted, Recorder, Solution};
+use crate::solution::{Interrupted, Solution};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{System, Vector};
 use crate::time::{Grid, Time};
-use crate::transition::{Locator, NewtonLocator, check_region, find_region};
+use crate::transition::{Locator, NewtonLocator, Start, check_region, find_region};
 use crate::walk::{Walk, run_segments};
 
 /// Beyond it products of times overflow.
@@ -44,8 +46,8 @@ const LARGEST_TIME: f64 = 1e250;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Integrator<'a, Sys, Sch, Loc = NewtonLocator> {
-    system: &'a Sys,
-    scheme: Sch,
+    pub(crate) system: &'a Sys,
+    pub(crate) scheme: Sch,
     locator: Loc,
 }
 
@@ -86,8 +88,6 @@ impl<'a, Sys, Sch: Scheme, Loc: Locator> Integrator<'a, Sys, Sch, Loc> {
             t0,
             x0: x0.into(),
             region: None,
-            every: 1,
-            output_times: None,
         }
     }
 }
@@ -95,23 +95,10 @@ impl<'a, Sys, Sch: Scheme, Loc: Locator> Integrator<'a, Sys, Sch, Loc> {
 /// An [`Integrator`] with its initial value; see [`Integrator::initial`].
 #[derive(Clone, Debug)]
 pub struct InitialValueProblem<'a, Sys: System<N>, Sch, Loc, const N: usize> {
-    integrator: Integrator<'a, Sys, Sch, Loc>,
-    t0: f64,
+    pub(crate) integrator: Integrator<'a, Sys, Sch, Loc>,
+    pub(crate) t0: f64,
     x0: Vector<f64, N>,
     region: Option<Sys::Region>,
-    every: u64,
-    output_times: Option<Vec<f64>>,
-}
-
-/// Where an integration ended.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct End<R, const N: usize> {
-    /// The last point.
-    pub point: Point<R, N>,
-    /// What is missing from the last point's state, which is rounded.
-    pub remainder: Vector<f64, N>,
-    /// What was done.
-    pub statistics: Statistics,
 }
 
 impl<'a, Sys, Sch, Loc, const N: usize> InitialValueProblem<'a, Sys, Sch, Loc, N>
@@ -133,75 +120,40 @@ where
     /// Keeps the ends of every `every`-th step only (default 1, at least 1); the start, the
     /// end and both sides of each transition are always kept.
     #[must_use]
-    pub fn every(self, every: u64) -> Self {
-        Self {
-            every: every.max(1),
-            ..self
-        }
+    pub fn every(self, every: u64) -> Recording<'a, Sys, Sch, Loc, N> {
+        Recording::new(self).every(every)
     }
 
     /// Keeps the solution at these times, in ascending order, instead of the ends of steps.
     /// The steps do not change.
     #[must_use]
-    pub fn output_times(self, times: impl Into<Vec<f64>>) -> Self {
-        Self {
-            output_times: Some(times.into()),
-            ..self
-        }
+    pub fn output_times(self, times: impl Into<Vec<f64>>) -> Recording<'a, Sys, Sch, Loc, N> {
+        Recording::new(self).output_times(times)
     }
 
-    /// Integrates until `t_end` and returns the trajectory.
+    /// Integrates until `t_end` and returns the trajectory, with the end of every step.
     ///
     /// # Errors
     /// Bad input, or whatever stopped the integration; the error carries the solution up to
     /// there.
     pub fn run_until(self, t_end: f64) -> Result<Solution<Sys, Sch, N>, Interrupted<Sys, Sch, N>> {
-        let mut recorder = Recorder::new(self.every, self.output_times.clone());
-        let mut statistics = Statistics::default();
-        let result = self
-            .check_output_times(t_end)
-            .and_then(|()| self.walk(t_end, &mut recorder, &mut statistics));
-        recorder.finish();
-        let solution = Solution::new(
-            self.integrator.system.clone(),
-            self.integrator.scheme.clone(),
-            self.grid(t_end),
-            recorder,
-            statistics,
-        );
-        match result {
-            Ok(_) => Ok(solution),
-            Err(error) => Err(Interrupted::new(error, solution)),
-        }
+        Recording::new(self).run_until(t_end)
     }
 
-    /// Integrates until `t_end` in constant memory, telling `observer` of it.
+    /// Integrates until `t_end` in constant memory, telling `observer` of it. What it is told
+    /// of is the observer's to choose: see [`Observer::next_output`] for output at given times.
     ///
     /// # Errors
-    /// Bad input, or whatever stopped the integration.
+    /// Bad input, or whatever stopped the integration; the error carries the end that was
+    /// reached and what was done until then.
     pub fn observe_until<Obs: Observer<Sys::Region, N>>(
         &self,
         t_end: f64,
         observer: &mut Obs,
-    ) -> Result<End<Sys::Region, N>, Error> {
-        self.walk(t_end, observer, &mut Statistics::default())
-    }
-
-    /// Integrates; `statistics` tells what was done even if it stops early.
-    fn walk<Obs: Observer<Sys::Region, N>>(
-        &self,
-        t_end: f64,
-        observer: &mut Obs,
-        statistics: &mut Statistics,
-    ) -> Result<End<Sys::Region, N>, Error> {
-        self.check_input(t_end)?;
-        let system = self.integrator.system;
-        let start = match self.region {
-            Some(region) => check_region(system, region, self.t0, &self.x0)?,
-            None => find_region(system, self.t0, &self.x0)?,
-        };
+    ) -> Result<End<Sys::Region, N>, Halted<Sys::Region, N>> {
+        let start = self.start(t_end).map_err(Halted::at_start)?;
         let mut walk = Walk {
-            system,
+            system: self.integrator.system,
             scheme: &self.integrator.scheme,
             locator: &self.integrator.locator,
             observer,
@@ -219,15 +171,28 @@ where
             ControlFlow::Continue(()) => run_segments(&mut walk),
             ControlFlow::Break(()) => Ok(()),
         };
-        *statistics = walk.statistics;
-        result.map(|()| End {
+        let end = End {
             point: walk.point(),
             remainder: walk.state.remainder,
             statistics: walk.statistics,
-        })
+        };
+        match result {
+            Ok(()) => Ok(end),
+            Err(error) => Err(Halted::new(error, end)),
+        }
     }
 
-    fn grid(&self, t_end: f64) -> Grid {
+    /// The region to start in, after all input is checked.
+    fn start(&self, t_end: f64) -> Result<Start<Sys::Region>, Error> {
+        self.check_input(t_end)?;
+        let system = self.integrator.system;
+        match self.region {
+            Some(region) => check_region(system, region, self.t0, &self.x0),
+            None => find_region(system, self.t0, &self.x0),
+        }
+    }
+
+    pub(crate) fn grid(&self, t_end: f64) -> Grid {
         Grid::new(self.t0, t_end, self.integrator.scheme.step_size())
     }
 
@@ -243,17 +208,17 @@ where
         if !(step_size > 0.0 && step_size.is_finite()) {
             return invalid(
                 "step size",
-                step_size.to_string(),
+                number(step_size),
                 "must be positive and finite",
             );
         }
         if !self.t0.is_finite() {
-            return invalid("initial time", self.t0.to_string(), "must be finite");
+            return invalid("initial time", number(self.t0), "must be finite");
         }
         if !(t_end.is_finite() && t_end >= self.t0) {
             return invalid(
                 "end time",
-                t_end.to_string(),
+                number(t_end),
                 "must be finite and not before the initial time",
             );
         }
@@ -262,7 +227,7 @@ where
         {
             return invalid(
                 "step size",
-                step_size.to_string(),
+                number(step_size),
                 "is below the rounding error of the time",
             );
         }
@@ -290,21 +255,12 @@ where
         }
         Ok(())
     }
+}
 
-    fn check_output_times(&self, t_end: f64) -> Result<(), Error> {
-        let times = self.output_times.as_deref().unwrap_or_default();
-        let mut previous = self.t0;
-        for &t in times {
-            if !(t >= previous && t <= t_end) {
-                return Err(Error::InvalidInput {
-                    what: "output time",
-                    value: t.to_string(),
-                    requirement: "must lie between the initial and the end time, in ascending \
-                                  order",
-                });
-            }
-            previous = t;
-        }
-        Ok(())
+/// A number as people write it: small and large ones with an exponent.
+fn number(value: f64) -> String {
+    match value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
+        true => format!("{value:e}"),
+        false => value.to_string(),
     }
 }

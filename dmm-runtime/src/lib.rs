@@ -10,7 +10,9 @@
 //! | declare a system | [`pws!`] |
 //! | integrate it | [`Integrator`] with a [`Scheme`] such as [`Symmetric`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
-//! | watch a long run in constant memory | [`Observer`] |
+//! | keep some of its points only | [`Recording`] |
+//! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
+//! | evaluate ψ at a point | [`System::conserved`] |
 //! | replace the search for crossings | [`Locator`] |
 //! | write a scheme | [`Scheme`], [`Flow`] |
 //!
@@ -31,12 +33,14 @@
 //! terms.
 #![deny(missing_docs)]
 
+mod end;
 mod error;
 mod integrator;
 mod level;
 mod linear;
 mod minimal_norm;
 mod observer;
+mod recording;
 mod scalar;
 mod scheme;
 mod transition;
@@ -44,6 +48,7 @@ mod transition;
 mod solution;
 pub mod special;
 
+mod sparse;
 mod state;
 mod statistics;
 #[doc(hidden)]
@@ -53,10 +58,12 @@ mod time;
 mod walk;
 
 pub use dmm_macros::pws;
+pub use end::{End, Halted};
 pub use error::{Error, StepFailure};
-pub use integrator::{End, InitialValueProblem, Integrator};
+pub use integrator::{InitialValueProblem, Integrator};
 pub use minimal_norm::MinimalNorm;
 pub use observer::{Observer, Point, Transition};
+pub use recording::Recording;
 pub use scalar::Scalar;
 pub use scheme::{Correction, Scheme, Symmetric};
 pub use solution::{Interrupted, Solution};

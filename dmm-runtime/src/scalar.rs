@@ -32,6 +32,10 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
     /// The value as a double.
     fn to_f64(self) -> f64;
+    /// u·b + c, u = self: with one rounding where the processor has an instruction for it,
+    /// which the target's features tell, and otherwise with two. (A library's fused operation
+    /// takes several times as long as a product and a sum.)
+    fn fused(self, b: Self, c: Self) -> Self;
     /// |u|
     fn abs(self) -> Self;
     /// √u
@@ -101,6 +105,15 @@ macro_rules! implement_scalar {
             #[inline]
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+
+            #[inline]
+            fn fused(self, b: Self, c: Self) -> Self {
+                if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+                    self.mul_add(b, c)
+                } else {
+                    self * b + c
+                }
             }
 
             implement_scalar!(own $real: abs sqrt exp ln sin cos tan sinh cosh tanh asin acos atan);

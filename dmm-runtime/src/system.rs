@@ -55,6 +55,45 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
 
     /// Calls `visitor` with the flow of `region`, monomorphised for it.
     fn visit<V: FlowVisitor<N>>(&self, region: Self::Region, visitor: V) -> V::Output;
+
+    /// ψ(t, x), the quantities that are conserved in `region`, in the order of
+    /// [`System::conserved_names`]. The point need not lie in the region.
+    ///
+    /// ```
+    /// use dmm_runtime::{System, pws};
+    ///
+    /// pws! {
+    ///     /// An oscillator.
+    ///     pub system Oscillator {
+    ///         state q, p;
+    ///         der(q) = p;
+    ///         der(p) = -q;
+    ///         conserved energy = (q^2 + p^2) / 2;
+    ///     }
+    /// }
+    ///
+    /// let region = OscillatorRegion::Everywhere;
+    /// let psi = Oscillator {}.conserved(region, 0.0, &[3.0, 4.0].into());
+    /// assert_eq!(Oscillator::conserved_names(region), ["energy"]);
+    /// assert_eq!(psi, [12.5]);
+    /// ```
+    fn conserved(&self, region: Self::Region, t: f64, x: &Vector<f64, N>) -> Vec<f64> {
+        self.visit(region, Conserved { t, x })
+    }
+}
+
+/// ψ(t, x)
+struct Conserved<'a, const N: usize> {
+    t: f64,
+    x: &'a Vector<f64, N>,
+}
+
+impl<const N: usize> FlowVisitor<N> for Conserved<'_, N> {
+    type Output = Vec<f64>;
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Vec<f64> {
+        flow.conserved(self.t, self.x).iter().copied().collect()
+    }
 }
 
 /// The side of an interface.

@@ -1,4 +1,5 @@
-//! What `pws!` costs: the time of every stage for every declaration in some Rust sources.
+//! What declarations cost: the operations of the emitted functions, and the time of every
+//! stage of the compiler, for every `pws!` in some Rust sources.
 //!
 //! ```text
 //! cargo run -p dmm-compiler --example compile_cost [FILE | DIRECTORY]...
@@ -7,6 +8,14 @@
 //! Without arguments, the problems of this repository, and then `cargo check` of them with
 //! everything that they depend on already built. Users' macros run unoptimised, even in release
 //! builds, so the default profile is the one to measure.
+//!
+//! Operations are those of one evaluation of f^τ, and of f^τ with ∂f^τ/∂x₁ (for a minimal-norm
+//! field, of everything that the runtime's projection is given), in the region that takes the
+//! most: as trees, with equal expressions shared, and as emitted. A sum, product or sign is one
+//! operation of weight 1, a division one of weight 4, a square root 6, an elementary function
+//! 20; what depends on parameters alone is computed once a flow and not counted.
+
+mod declarations;
 
 use std::error::Error;
 use std::fs;
@@ -14,45 +23,34 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use dmm_compiler::diagnostics::Diagnostics;
+use dmm_compiler::emit::{Evaluated, Operations};
+use dmm_compiler::optimise::Count;
 use dmm_compiler::{check, emit, proofs, scheme, syntax};
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::TokenStream;
 
 /// Each declaration is compiled this often; the fastest run counts.
 const RUNS: usize = 5;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../problems");
     let own_problems = paths.is_empty();
     if own_problems {
-        paths.push(problems.join("src/systems"));
+        paths.push(declarations::problems());
     }
-    let mut files = Vec::new();
+    let mut costs = Vec::new();
     for path in paths {
-        collect(&path, &mut files).map_err(|error| format!("{}: {error}", path.display()))?;
-    }
-    println!(
-        "{:<24} {:>6} {:>4} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "system", "states", "ψ", "nodes", "parse", "check", "prove", "derive", "emit", "total"
-    );
-    for file in files {
-        let tokens: TokenStream = fs::read_to_string(&file)?
-            .parse()
-            .map_err(|error| format!("{}: {error}", file.display()))?;
-        let mut declarations = Vec::new();
-        find_declarations(tokens, &mut declarations);
-        for declaration in declarations {
-            let costs = (0..RUNS)
+        for (file, declaration) in declarations::declarations(&path)? {
+            let runs = (0..RUNS)
                 .map(|_| measure(declaration.clone()))
                 .collect::<Result<Vec<Cost>, String>>()
                 .map_err(|error| format!("{}: {error}", file.display()))?;
-            if let Some(cost) = costs.into_iter().min_by_key(Cost::total) {
-                println!("{}", cost.row());
-            }
+            costs.extend(runs.into_iter().min_by_key(Cost::total));
         }
     }
-    println!("\ntimes in ms, the fastest of {RUNS} runs");
+    print_operations(&costs);
+    print_times(&costs);
     if own_problems {
+        let problems = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../problems");
         cargo_check(&problems)?;
         let start = Instant::now();
         fs::File::options()
@@ -80,74 +78,109 @@ fn cargo_check(directory: &Path) -> Result<(), Box<dyn Error>> {
         .ok_or_else(|| "cargo check failed".into())
 }
 
-/// The Rust sources under `path`, in the order of their names.
-fn collect(path: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    if path.is_dir() {
-        let mut entries = fs::read_dir(path)?
-            .map(|entry| entry.map(|entry| entry.path()))
-            .collect::<Result<Vec<PathBuf>, _>>()?;
-        entries.sort();
-        for entry in entries {
-            collect(&entry, files)?;
-        }
-    } else if path.extension().is_some_and(|extension| extension == "rs") {
-        files.push(path.to_owned());
-    } else {
-        fs::metadata(path)?;
-    }
-    Ok(())
-}
+/// The stages of the compiler.
+const STAGES: [&str; 6] = ["parse", "check", "prove", "derive", "optimise", "emit"];
 
-/// The bodies of `pws! { … }`, however deep they stand.
-fn find_declarations(tokens: TokenStream, found: &mut Vec<TokenStream>) {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    for (index, token) in tokens.iter().enumerate() {
-        let TokenTree::Group(group) = token else {
-            continue;
-        };
-        let before = |back: usize| {
-            index
-                .checked_sub(back)
-                .map(|position| tokens[position].to_string())
-        };
-        if before(1).as_deref() == Some("!") && before(2).as_deref() == Some("pws") {
-            found.push(group.stream());
-        } else {
-            find_declarations(group.stream(), found);
-        }
-    }
-}
-
-/// The times of the stages on one declaration.
+/// What one declaration costs.
 struct Cost {
     name: String,
     states: usize,
     conserved: usize,
     nodes: usize,
-    stages: [Duration; 5],
+    /// Of f^τ, and of f^τ with its Jacobian.
+    operations: [Operation; 2],
+    stages: [Duration; STAGES.len()],
+}
+
+/// The operations of a function: as trees, shared, optimised.
+#[derive(Clone, Copy, Default)]
+struct Operation {
+    tree: Count,
+    shared: Count,
+    optimised: Count,
+}
+
+impl Operation {
+    /// Those of the function `name` in the region that takes the most.
+    fn dearest(operations: &Operations, name: &str) -> Self {
+        let of = |functions: Vec<Evaluated<'_>>, count: fn(&Evaluated<'_>) -> Count| {
+            let function = functions.iter().find(|function| function.name == name);
+            function.map(count).unwrap_or_default()
+        };
+        (0..operations.regions())
+            .map(|region| Self {
+                tree: of(operations.written(region), |function| function.tree()),
+                shared: of(operations.written(region), |function| function.shared()),
+                optimised: of(operations.optimised(region), |function| function.shared()),
+            })
+            .max_by_key(|operation| operation.shared.weighted)
+            .unwrap_or_default()
+    }
 }
 
 impl Cost {
     fn total(&self) -> Duration {
         self.stages.iter().sum()
     }
+}
 
-    fn row(&self) -> String {
-        let times: String = self
-            .stages
-            .iter()
-            .chain([&self.total()])
-            .map(|time| format!(" {:>7.2}", 1e3 * time.as_secs_f64()))
-            .collect();
-        let Self {
+/// The table of operations.
+fn print_operations(costs: &[Cost]) {
+    let groups = ["f^τ", "f^τ, weighted", "f^τ and ∂f^τ/∂x₁", "both, weighted"];
+    print!("{:<24}", "operations");
+    for group in groups {
+        print!(" | {group:^22}");
+    }
+    print!("\n{:<24}", "");
+    for _ in groups {
+        print!(" | {:>8} {:>6} {:>6}", "tree", "shared", "now");
+    }
+    println!();
+    for cost in costs {
+        print!("{:<24}", cost.name);
+        for Operation {
+            tree,
+            shared,
+            optimised,
+        } in cost.operations
+        {
+            let counts = [tree, shared, optimised];
+            let [a, b, c] = counts.map(|count| count.operations);
+            print!(" | {a:>8} {b:>6} {c:>6}");
+            let [a, b, c] = counts.map(|count| count.weighted);
+            print!(" | {a:>8} {b:>6} {c:>6}");
+        }
+        println!();
+    }
+    println!();
+}
+
+/// The table of times.
+fn print_times(costs: &[Cost]) {
+    print!(
+        "{:<24} {:>6} {:>4} {:>6}",
+        "time [ms]", "states", "ψ", "nodes"
+    );
+    for stage in STAGES.iter().chain(&["total"]) {
+        print!(" {stage:>8}");
+    }
+    println!();
+    for cost in costs {
+        let Cost {
             name,
             states,
             conserved,
             nodes,
+            stages,
             ..
-        } = self;
-        format!("{name:<24} {states:>6} {conserved:>4} {nodes:>6}{times}")
+        } = cost;
+        print!("{name:<24} {states:>6} {conserved:>4} {nodes:>6}");
+        for time in stages.iter().chain([&cost.total()]) {
+            print!(" {:>8.2}", 1e3 * time.as_secs_f64());
+        }
+        println!();
     }
+    println!("the fastest of {RUNS} runs");
 }
 
 fn measure(input: TokenStream) -> Result<Cost, String> {
@@ -168,10 +201,17 @@ fn measure(input: TokenStream) -> Result<Cost, String> {
         .filter(|_| diagnostics.is_empty())
         .and_then(|model| scheme::derive(model, &mut diagnostics));
     clock.lap(3);
-    let tokens = scheme.as_ref().map(emit::rust);
+    let operations = scheme.as_ref().map(Operations::new);
     clock.lap(4);
-    match (scheme, tokens) {
-        (Some(scheme), Some(_)) => Ok(Cost {
+    let tokens = scheme
+        .as_ref()
+        .zip(operations.as_ref())
+        .map(|(scheme, operations)| emit::rust_of(scheme, operations));
+    clock.lap(5);
+    match (scheme, operations, tokens) {
+        (Some(scheme), Some(operations), Some(_)) => Ok(Cost {
+            operations: ["discrete_vector_field", "linearised"]
+                .map(|name| Operation::dearest(&operations, name)),
             name: scheme.model.name.to_string(),
             states: scheme.model.states.len(),
             conserved: scheme
@@ -189,14 +229,14 @@ fn measure(input: TokenStream) -> Result<Cost, String> {
 /// Times of stages that follow each other.
 struct Clock {
     last: Instant,
-    laps: [Duration; 5],
+    laps: [Duration; STAGES.len()],
 }
 
 impl Clock {
     fn new() -> Self {
         Self {
             last: Instant::now(),
-            laps: [Duration::ZERO; 5],
+            laps: [Duration::ZERO; STAGES.len()],
         }
     }
 

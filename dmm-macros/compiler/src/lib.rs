@@ -5,14 +5,203 @@
 //! tokens → [`syntax`] → [`check`] → [`proofs`] → [`scheme`] → [`emit`] → tokens.
 //!
 //! A stage reports all that it can check to [`diagnostics`]; the next one starts if there was
-//! nothing to report.
+//! nothing to report. [`compile`] is the way through all of them, [`read`] and [`explain`] stop
+//! at the scheme.
+//!
+//! # One system, stage by stage
+//!
+//! Motion along an elliptic curve (Hirani, Wan & Wojtalewicz §4.2), in one region so that it
+//! stays short. The values below are those that the stages give; they are tested.
+//!
+//! ## Tokens → declaration
+//!
+//! [`syntax::parse`] knows the grammar and no mathematics. What it gives can be printed, and
+//! reads like what was written.
+//!
+//! ```
+//! use dmm_compiler::diagnostics::Diagnostics;
+//! use dmm_compiler::syntax;
+//!
+//! let declaration = "system Elliptic {
+//!     state x, y;
+//!     param a = -3;
+//!     der(x) = 2 * y;
+//!     der(y) = 3 * x^2 + a;
+//!     conserved curve = y^2 - x^3 - a * x;
+//! }";
+//! let mut diagnostics = Diagnostics::new();
+//! let parsed = syntax::parse(declaration.parse().unwrap(), &mut diagnostics).unwrap();
+//! assert_eq!(parsed.items.len(), 5);
+//! assert!(parsed.to_string().contains("    der(y) = 3 * x^2 + a;\n"));
+//! ```
+//!
+//! ## Declaration → model
+//!
+//! [`check::resolve`] resolves every name. A formula is a node of a hash-consed
+//! [`Dag`](algebra::Dag): equal expressions are the same node, here 3x² of f and of ∇ψ.
+//!
+//! ```
+//! # use dmm_compiler::diagnostics::Diagnostics;
+//! # use dmm_compiler::syntax;
+//! # let declaration = "system Elliptic {
+//! #     state x, y;
+//! #     param a = -3;
+//! #     der(x) = 2 * y;
+//! #     der(y) = 3 * x^2 + a;
+//! #     conserved curve = y^2 - x^3 - a * x;
+//! # }";
+//! # let mut diagnostics = Diagnostics::new();
+//! # let parsed = syntax::parse(declaration.parse().unwrap(), &mut diagnostics).unwrap();
+//! use dmm_compiler::algebra::to_text;
+//! use dmm_compiler::check;
+//!
+//! let model = check::resolve(parsed, &mut diagnostics).unwrap();
+//! let region = &model.regions[0];
+//! assert_eq!(region.ident, "everywhere");
+//! assert_eq!(to_text(&model.dag, region.field[1]), "3*x^2 + a");
+//! assert_eq!(to_text(&model.dag, region.conserved[0].psi), "y^2 - x^3 - a*x");
+//! ```
+//!
+//! ## Model → proofs
+//!
+//! [`proofs::check`] decides ∂ₜψ + ∇ψ·f = 0 by a normal form of both: the derivative
+//! 2y (3x² + a) − (3x² + a) 2y is zero identically, and no condition on x or y is needed.
+//!
+//! ```
+//! # use dmm_compiler::diagnostics::Diagnostics;
+//! # use dmm_compiler::{check, syntax};
+//! # let declaration = "system Elliptic {
+//! #     state x, y;
+//! #     param a = -3;
+//! #     der(x) = 2 * y;
+//! #     der(y) = 3 * x^2 + a;
+//! #     conserved curve = y^2 - x^3 - a * x;
+//! # }";
+//! # let mut diagnostics = Diagnostics::new();
+//! # let parsed = syntax::parse(declaration.parse().unwrap(), &mut diagnostics).unwrap();
+//! # let mut model = check::resolve(parsed, &mut diagnostics).unwrap();
+//! use dmm_compiler::model::Conservation;
+//! use dmm_compiler::proofs;
+//!
+//! proofs::check(&mut model, &mut diagnostics);
+//! let evidence = &model.regions[0].conserved[0].evidence;
+//! assert_eq!(*evidence, Conservation::Proved(Vec::new()));
+//! assert!(diagnostics.is_empty());
+//! ```
+//!
+//! ## Proofs → Λ and Λ^τ
+//!
+//! [`scheme::derive`] differentiates ψ for the multiplier Λ = ∇ψ, and takes its symmetric divided
+//! differences for Λ^τ: quotients of Δψ by Δx in which nothing is divided and nothing cancels.
+//!
+//! ```
+//! # let declaration = "system Elliptic {
+//! #     state x, y;
+//! #     param a = -3;
+//! #     der(x) = 2 * y;
+//! #     der(y) = 3 * x^2 + a;
+//! #     conserved curve = y^2 - x^3 - a * x;
+//! # }";
+//! # let tokens = declaration.parse::<proc_macro2::TokenStream>().unwrap();
+//! # let scheme = dmm_compiler::read(tokens).unwrap();
+//! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
+//! use dmm_compiler::algebra::to_text;
+//!
+//! assert_eq!(to_text(dag, region.multiplier[0][0]), "-(3*x^2 + a)");
+//! assert_eq!(to_text(dag, region.multiplier[0][1]), "2*y");
+//! assert_eq!(to_text(dag, region.discrete_multiplier[0][0]), "-(x₁^2 + x₁*x₀ + x₀^2 + a)");
+//! assert_eq!(to_text(dag, region.discrete_multiplier[0][1]), "y₁ + y₀");
+//! ```
+//!
+//! ## Λ^τ → f^τ
+//!
+//! The first [`Strategy`](scheme::Strategy) fits, skew pairing: f = α (∂ψ/∂y, −∂ψ/∂x) with
+//! α = 1, so f^τ is made from Λ^τ in the same way, and Λ^τ f^τ = 0 whatever its entries are.
+//!
+//! ```
+//! # let declaration = "system Elliptic {
+//! #     state x, y;
+//! #     param a = -3;
+//! #     der(x) = 2 * y;
+//! #     der(y) = 3 * x^2 + a;
+//! #     conserved curve = y^2 - x^3 - a * x;
+//! # }";
+//! # let tokens = declaration.parse::<proc_macro2::TokenStream>().unwrap();
+//! # let scheme = dmm_compiler::read(tokens).unwrap();
+//! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
+//! use dmm_compiler::algebra::to_text;
+//! use dmm_compiler::scheme::{Evidence, Solvability, Strategy};
+//!
+//! let Strategy::SkewPairing { pairs, field, .. } = &region.strategy else { panic!() };
+//! assert_eq!(to_text(dag, pairs[0].alpha), "1");
+//! assert_eq!(to_text(dag, field.value[0]), "y₁ + y₀");
+//! assert_eq!(to_text(dag, field.value[1]), "x₁^2 + x₁*x₀ + x₀^2 + a");
+//! assert_eq!(to_text(dag, field.jacobian[1][0]), "2*x₁ + x₀");
+//! assert_eq!(region.proofs.conserves, Evidence::Proved);
+//! assert_eq!(region.solvability, Solvability::Nonlinear);
+//! ```
+//!
+//! ## Scheme → operations
+//!
+//! [`emit::Operations`] lowers the expressions to what a machine does, and [`optimise`] finds
+//! cheaper ones: f^τ takes 6 operations, and f^τ with its Jacobian 7.
+//!
+//! ```
+//! # let declaration = "system Elliptic {
+//! #     state x, y;
+//! #     param a = -3;
+//! #     der(x) = 2 * y;
+//! #     der(y) = 3 * x^2 + a;
+//! #     conserved curve = y^2 - x^3 - a * x;
+//! # }";
+//! # let tokens = declaration.parse::<proc_macro2::TokenStream>().unwrap();
+//! # let scheme = dmm_compiler::read(tokens).unwrap();
+//! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
+//! use dmm_compiler::emit::Operations;
+//!
+//! let operations = Operations::new(&scheme);
+//! let count = |function: &str| {
+//!     let mut functions = operations.optimised(0).into_iter();
+//!     functions.find(|one| one.name == function).unwrap().shared().operations
+//! };
+//! assert_eq!(count("discrete_vector_field"), 6);
+//! assert_eq!(count("linearised"), 7);
+//! ```
+//!
+//! ## Operations → Rust, scheme → listing
+//!
+//! [`emit::rust`] writes the items that `pws!` expands to, and [`emit::listing`] the mathematics
+//! for people, which the documentation of these items shows as well.
+//!
+//! ```
+//! # let declaration = "system Elliptic {
+//! #     state x, y;
+//! #     param a = -3;
+//! #     der(x) = 2 * y;
+//! #     der(y) = 3 * x^2 + a;
+//! #     conserved curve = y^2 - x^3 - a * x;
+//! # }";
+//! # let tokens = declaration.parse::<proc_macro2::TokenStream>().unwrap();
+//! # let scheme = dmm_compiler::read(tokens).unwrap();
+//! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
+//! use dmm_compiler::emit;
+//!
+//! let code = emit::rust(&scheme).to_string();
+//! assert!(code.contains("pub a : f64"));
+//! assert!(code.contains("fn discrete_vector_field"));
+//! let listing = emit::listing(&scheme);
+//! assert!(listing.contains("F[y] = y₁ - y₀ - τ*(x₁^2 + x₁*x₀ + x₀^2 + a)"));
+//! assert!(listing.contains("∂F[y]/∂x₁ = -τ*(2*x₁ + x₀)"));
+//! ```
 #![deny(missing_docs)]
 
 pub mod algebra;
 pub mod check;
 pub mod diagnostics;
 pub mod emit;
+pub mod invariants;
 pub mod model;
+pub mod optimise;
 pub mod proofs;
 pub mod scheme;
 pub mod stub;
@@ -42,13 +231,19 @@ pub fn compile(input: TokenStream) -> TokenStream {
     }
 }
 
-/// The scheme of a declaration in readable mathematics, or the messages of all diagnostics.
-pub fn explain(input: TokenStream) -> Result<String, Vec<String>> {
+/// The scheme of a declaration, or what is wrong with it.
+pub fn read(input: TokenStream) -> Result<Scheme, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
     syntax::parse(input, &mut diagnostics)
         .and_then(|declaration| derive(declaration, &mut diagnostics))
+        .ok_or(diagnostics)
+}
+
+/// The scheme of a declaration in readable mathematics, or the messages of all diagnostics.
+pub fn explain(input: TokenStream) -> Result<String, Vec<String>> {
+    read(input)
         .map(|scheme| emit::listing(&scheme))
-        .ok_or_else(|| diagnostics.messages())
+        .map_err(|diagnostics| diagnostics.messages())
 }
 
 /// The scheme of a declaration without errors.

@@ -40,7 +40,9 @@ pub struct State {
     pub attributes: Vec<Attribute>,
     /// Its identifier in the declaration.
     pub ident: Ident,
-    /// Its variable.
+    /// Its index in the group `ident`; nothing for a scalar.
+    pub element: Option<usize>,
+    /// Its variable, `x` or `q[0]`.
     pub name: Name,
 }
 
@@ -51,7 +53,10 @@ pub struct Parameter {
     pub attributes: Vec<Attribute>,
     /// Its identifier in the declaration.
     pub ident: Ident,
-    /// Its variable.
+    /// Its index in the group `ident`; nothing for a scalar. The elements of a group follow
+    /// one another.
+    pub element: Option<usize>,
+    /// Its variable, `k` or `m[0]`.
     pub name: Name,
     /// The default: an expression without variables.
     pub default: Id,
@@ -83,8 +88,13 @@ pub struct Region {
     pub field: Vec<Id>,
     /// Where each component of f stands in the declaration.
     pub field_spans: Vec<Extent>,
-    /// The conserved quantities ψ.
+    /// The conserved quantities ψ, those shared by all regions first.
     pub conserved: Vec<Conserved>,
+    /// The canonical pairs of a `hamiltonian`, as indices of states (q, p): q̇ = ∂H/∂p and
+    /// ṗ = −∂H/∂q by construction.
+    pub canonical: Vec<(usize, usize)>,
+    /// What is known of the independence of the ψ; filled in by the proofs.
+    pub independence: Independence,
 }
 
 /// On which side of an interface a region lies.
@@ -106,7 +116,7 @@ pub enum Sign {
 }
 
 /// A conserved quantity ψ(t, x): ∂ₜψ + ∇ψ·f = 0.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Conserved {
     /// Documentation comments.
     pub attributes: Vec<Attribute>,
@@ -116,6 +126,73 @@ pub struct Conserved {
     pub psi: Id,
     /// Where ψ's formula stands in the declaration.
     pub span: Extent,
+    /// On what grounds it is declared.
+    pub claim: Claim,
+    /// Why it is conserved; filled in by the proofs.
+    pub evidence: Conservation,
+}
+
+/// On what grounds a quantity is declared to be conserved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Claim {
+    /// `conserved`: it has to be proved.
+    Conserved,
+    /// `assume conserved`: what cannot be proved is accepted, what is refuted is not.
+    Assumed,
+    /// It is the H of a `hamiltonian`.
+    Hamiltonian,
+}
+
+/// Why a quantity is conserved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Conservation {
+    /// Not examined so far.
+    Unknown,
+    /// ∂ₜψ + ∇ψ·f = 0 was proved, wherever the conditions hold.
+    Proved(Vec<DomainCondition>),
+    /// It is a Hamiltonian without explicit time, and f was made from it.
+    ByConstruction,
+    /// It could not be proved, and `assume` accepts it.
+    Assumed {
+        /// The number of points at which ∂ₜψ + ∇ψ·f was evaluated.
+        points: usize,
+        /// The largest |∂ₜψ + ∇ψ·f| there, relative to the size of its terms.
+        largest: f64,
+    },
+}
+
+/// What has to hold for a proof to hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum DomainCondition {
+    /// u > 0
+    Positive(Id),
+    /// u ≥ 0
+    NotNegative(Id),
+    /// u ≠ 0
+    NonZero(Id),
+    /// −1 ≤ u ≤ 1
+    WithinOne(Id),
+}
+
+/// What is known of the independence of the ψ of a region, the rank of Λ = ∇ψ.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Independence {
+    /// There is no ψ, or it was not examined so far.
+    #[default]
+    Nothing,
+    /// The gradients are dependent exactly where every one of `factors` and `minors` says so:
+    /// each M×M minor of Λ is the product of the common `factors` and of one of `minors`, so
+    /// that the rank falls where a factor is zero, or all of `minors` are.
+    Proved {
+        /// The common factors that can vanish.
+        factors: Vec<Id>,
+        /// The cofactors, without those that are identically zero; empty if one of them is a
+        /// constant.
+        minors: Vec<Id>,
+    },
+    /// A minor is not zero at a point, so that the rank is M at generic points; the set where
+    /// it falls was not found.
+    Generic,
 }
 
 impl Model {

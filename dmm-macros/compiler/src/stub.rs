@@ -1,7 +1,10 @@
 //! What is emitted beside the diagnostics of a wrong declaration: items with the names that the
 //! rest of a program refers to, so that one mistake gives one message.
 //!
-//! A stub never runs; the program that contains it does not compile.
+//! A stub never runs; the program that contains it does not compile. Where the declaration does
+//! not say how many states there are, the stub implements `System<N>` for every N.
+
+mod count;
 
 use std::collections::BTreeSet;
 
@@ -9,30 +12,74 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::model::camel_case;
-use crate::syntax::{Declaration, Item};
+use crate::syntax::{Declaration, Defaults, Item, is_identifier};
+use count::Constants;
+
+/// The length of a group of parameters that the declaration does not tell: more than any index
+/// that is written in a program is likely to be.
+const UNKNOWN_LENGTH: usize = 1024;
 
 /// The struct with its parameters, `Default`, the enumeration of the regions, and an
 /// `impl System` with the right number of states.
 pub fn stub(declaration: &Declaration) -> TokenStream {
+    let constants = Constants::of(declaration);
     let (visibility, name) = (&declaration.visibility, &declaration.name);
     let region = format_ident!("{}Region", name, span = name.span());
-    let parameters = parameters(declaration);
     let variants = variants(declaration);
-    let states = states(declaration);
-    let count = states.len();
+    let item = item(declaration, &constants);
+    let implementation = implementation(name, &region, states(declaration, &constants));
     quote! {
-        #[allow(missing_docs, non_snake_case, non_camel_case_types)]
-        #[derive(Clone, Copy, Debug, Default, PartialEq)]
-        #visibility struct #name { #(pub #parameters: f64,)* }
+        #item
 
         #[allow(missing_docs, non_camel_case_types)]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         #visibility enum #region { #(#variants,)* }
 
-        impl ::dmm_runtime::support::System<#count> for #name {
+        #implementation
+    }
+}
+
+/// The struct and its `Default`.
+fn item(declaration: &Declaration, constants: &Constants) -> TokenStream {
+    let (visibility, name) = (&declaration.visibility, &declaration.name);
+    let mut fields = Vec::new();
+    let mut defaults = Vec::new();
+    for (parameter, length) in parameters(declaration, constants) {
+        match length {
+            Some(length) => {
+                fields.push(quote!(pub #parameter: [f64; #length]));
+                defaults.push(quote!(#parameter: [0.0; #length]));
+            }
+            None => {
+                fields.push(quote!(pub #parameter: f64));
+                defaults.push(quote!(#parameter: 0.0));
+            }
+        }
+    }
+    quote! {
+        #[allow(missing_docs, non_snake_case, non_camel_case_types)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #visibility struct #name { #(#fields,)* }
+
+        impl ::core::default::Default for #name {
+            fn default() -> Self {
+                Self { #(#defaults,)* }
+            }
+        }
+    }
+}
+
+/// `impl System<N>`, for the number of states if there is one, or else for all.
+fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenStream {
+    let (generics, count) = match states {
+        Some(states) => (quote!(), quote!(#states)),
+        None => (quote!(<const STATES: usize>), quote!(STATES)),
+    };
+    quote! {
+        impl #generics ::dmm_runtime::support::System<#count> for #name {
             type Region = #region;
             const NAME: &'static str = "";
-            const STATES: [&'static str; #count] = [#(#states),*];
+            const STATES: [&'static str; #count] = [""; #count];
             const PARAMETERS: &'static [&'static str] = &[];
             const INTERFACES: &'static [&'static str] = &[];
             const REGIONS: &'static [#region] = &[];
@@ -45,51 +92,80 @@ pub fn stub(declaration: &Declaration) -> TokenStream {
             fn parameter_mut(&mut self, _: usize) -> ::core::option::Option<&mut f64> {
                 ::core::option::Option::None
             }
-            fn visit<V: ::dmm_runtime::support::FlowVisitor<#count>>(
+            fn visit<Visitor: ::dmm_runtime::support::FlowVisitor<#count>>(
                 &self,
                 _: #region,
-                _: V,
-            ) -> V::Output {
+                _: Visitor,
+            ) -> Visitor::Output {
                 ::core::unreachable!("the declaration of this system has errors")
             }
         }
     }
 }
 
-fn parameters(declaration: &Declaration) -> Vec<&Ident> {
+/// The parameters, with their numbers of elements if they are groups.
+fn parameters<'a>(
+    declaration: &'a Declaration,
+    constants: &Constants,
+) -> Vec<(&'a Ident, Option<usize>)> {
     let mut seen = BTreeSet::new();
-    let all = declaration.items.iter().filter_map(|item| match item {
-        Item::Parameter(parameter) => Some(&parameter.ident),
-        _ => None,
-    });
-    all.filter(|ident| seen.insert(ident.to_string())).collect()
+    let mut parameters = Vec::new();
+    for item in &declaration.items {
+        let Item::Parameter(parameter) = item else {
+            continue;
+        };
+        let name = parameter.group.ident.to_string();
+        if !is_identifier(&name) || !seen.insert(name) {
+            continue;
+        }
+        let length = parameter.group.length.as_ref().map(|length| {
+            let from_defaults = match &parameter.defaults {
+                Defaults::Same(_) => UNKNOWN_LENGTH,
+                Defaults::Each(defaults, _) => defaults.len(),
+            };
+            constants.count(length).unwrap_or(from_defaults)
+        });
+        parameters.push((&parameter.group.ident, length));
+    }
+    parameters
 }
 
 fn variants(declaration: &Declaration) -> Vec<Ident> {
     let mut seen = BTreeSet::new();
-    let all = declaration.items.iter().filter_map(|item| match item {
-        Item::Region(region) => Some(&region.ident),
-        _ => None,
-    });
-    let mut variants: Vec<Ident> = all
-        .map(|ident| format_ident!("{}", camel_case(&ident.to_string()), span = ident.span()))
-        .filter(|variant| seen.insert(variant.to_string()))
-        .collect();
+    let mut variants = Vec::new();
+    for item in &declaration.items {
+        if let Item::Region(region) = item {
+            let variant = camel_case(&region.ident.to_string());
+            if is_identifier(&variant) && seen.insert(variant.clone()) {
+                variants.push(format_ident!("{}", variant, span = region.ident.span()));
+            }
+        }
+    }
     if variants.is_empty() {
         variants.push(format_ident!("Everywhere"));
     }
     variants
 }
 
-fn states(declaration: &Declaration) -> Vec<String> {
+/// The number of states, elements of groups counted; nothing if it cannot be told.
+fn states(declaration: &Declaration, constants: &Constants) -> Option<usize> {
     let mut seen = BTreeSet::new();
-    let all = declaration.items.iter().filter_map(|item| match item {
-        Item::State(states) => Some(states.iter().map(|state| state.ident.to_string())),
-        _ => None,
-    });
-    all.flatten()
-        .filter(|name| seen.insert(name.clone()))
-        .collect()
+    let mut count = 0_usize;
+    for item in &declaration.items {
+        let Item::State(states) = item else {
+            continue;
+        };
+        for state in states {
+            let elements = match &state.length {
+                Some(length) => constants.count(length)?,
+                None => 1,
+            };
+            if seen.insert(state.ident.to_string()) {
+                count = count.checked_add(elements)?;
+            }
+        }
+    }
+    (count > 0).then_some(count)
 }
 
 #[cfg(test)]
@@ -98,21 +174,78 @@ mod tests {
     use crate::diagnostics::Diagnostics;
     use crate::syntax;
 
-    #[test]
-    fn a_stub_has_the_names_of_a_wrong_declaration() {
-        let text = "pub system S { state x, x, y; param k = 1, k = 2;
-            region far_left where g > 0 { } region far_left where g < 0 { } }";
+    /// The stub of a system S with these items, as formatted tokens.
+    fn stubbed(items: &str) -> String {
+        let text = format!("pub system S {{ {items} }}");
         let tokens: TokenStream = text.parse().expect("tokens");
         let mut diagnostics = Diagnostics::new();
         let declaration = syntax::parse(tokens, &mut diagnostics).expect("a head");
         let file: syn::File = syn::parse2(stub(&declaration)).expect("Rust items");
-        let text = quote!(#file).to_string();
+        quote!(#file).to_string()
+    }
+
+    #[test]
+    fn a_stub_has_the_names_of_a_wrong_declaration() {
+        let text = stubbed(
+            "state x, x, y; param k = 1, k = 2;
+            region far_left where g > 0 { } region far_left where g < 0 { }",
+        );
         for part in [
             "pub struct S { pub k : f64 , }",
             "pub enum SRegion { FarLeft , }",
             "System < 2usize > for S",
-            "[\"x\" , \"y\"]",
+            "Self { k : 0.0 , }",
         ] {
+            assert!(text.contains(part), "{part} / {text}");
+        }
+    }
+
+    #[test]
+    fn groups_have_their_elements() {
+        for (items, part) in [
+            (
+                "const n = 3; state q[n], p[2*n - 1], x;",
+                "System < 9usize >",
+            ),
+            (
+                "const n = (2^3 + 7) % 10, m = n/5; state q[m];",
+                "System < 1usize >",
+            ),
+            ("const n = 3; param m[n] = 1;", "pub m : [f64 ; 3usize]"),
+            ("param m[40] = 1; state x;", "m : [0.0 ; 40usize]"),
+            ("param m[2] = [1, 2, 3];", "pub m : [f64 ; 2usize]"),
+        ] {
+            let text = stubbed(items);
+            assert!(text.contains(part), "{part} / {text}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_told_fits_whatever_the_program_does() {
+        for (items, part) in [
+            ("state q[k];", "impl < const STATES : usize >"),
+            ("state q[0];", "impl < const STATES : usize >"),
+            ("state q[1/2];", "impl < const STATES : usize >"),
+            ("state q[1/0], x;", "impl < const STATES : usize >"),
+            ("state q[2^999], x;", "impl < const STATES : usize >"),
+            ("const n = n; state q[n];", "impl < const STATES : usize >"),
+            ("", "impl < const STATES : usize >"),
+            ("param m[k] = [1, 2, 3];", "pub m : [f64 ; 3usize]"),
+            ("param m[k] = 1;", "pub m : [f64 ; 1024usize]"),
+            (
+                "param type = 1, sum = 2;",
+                "pub struct S { pub sum : f64 , }",
+            ),
+            (
+                "param k = 1.0f64, m: f64 = 2;",
+                "pub struct S { pub k : f64 , pub m : f64 , }",
+            ),
+            (
+                "region a; region self where g > 0 { }",
+                "pub enum SRegion { A , RegionSelf , }",
+            ),
+        ] {
+            let text = stubbed(items);
             assert!(text.contains(part), "{part} / {text}");
         }
     }

@@ -14,7 +14,7 @@ use super::series::power_series;
 pub(super) const CLOSE: f64 = 0.1112;
 
 /// |x| up to which a few terms do: consecutive steps of an integration.
-const HOT: f64 = 1.0 / 256.0;
+pub(super) const HOT: f64 = 1.0 / 256.0;
 
 /// The coefficients (−1)ᵏ/(2k + 3) of C from k = `first` on.
 pub(super) const fn coefficients<const N: usize>(first: usize) -> [f64; N] {

@@ -1,14 +1,20 @@
 //! Pairs of doubles.
 //!
-//! Where a derivative changes its sign its two terms cancel, whatever the formula; there it is
-//! evaluated in pairs of doubles, u = high + low with |low| ≤ ulp(high)/2, which carry about
-//! 104 bits (Joldes, Muller & Popescu 2017, ACM Trans. Math. Softw. 44(2), algorithms 1, 2, 6
-//! and 11; quotient and root by long division).
+//! Where two terms of a derivative cancel, whatever the formula, and where arguments are far
+//! apart, it is evaluated in pairs of doubles, u = high + low with |low| ≤ ulp(high)/2, which
+//! carry about 104 bits (Joldes, Muller & Popescu 2017, ACM Trans. Math. Softw. 44(2),
+//! algorithms 1, 2, 6 and 11; quotient and root by long division). Next to a zero of the
+//! derivative even these are not enough: see [`super::long`].
 
+use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::arc::coefficients;
+use super::extended::Extended;
 use super::series::power_series;
+
+/// What π/2 as a double lacks: the next 53 bits.
+pub(super) const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 
 /// An unevaluated sum of two doubles.
 #[derive(Clone, Copy, Debug)]
@@ -131,9 +137,19 @@ impl Div for Double {
     }
 }
 
-impl Double {
+impl Extended for Double {
+    const CERTAIN: f64 = 1.0 / (1_u64 << 44) as f64;
+
+    const TERMS: usize = 7;
+
+    const FRAC_PI_2: Self = Self::new(FRAC_PI_2, FRAC_PI_2_LOW);
+
+    fn high(self) -> f64 {
+        self.high
+    }
+
     /// √u
-    pub(super) fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
             return Self::from(root);
@@ -142,13 +158,10 @@ impl Double {
         fast_two_sum(root, remainder.high / (2.0 * root))
     }
 
-    /// C(u), see [`super::arc::arc_remainder`].
-    pub(super) fn arc_remainder(self) -> Self {
+    /// The series, with the plain sum of the terms that are small, once |u| ≤ 1/16.
+    fn arc_remainder(self) -> Self {
         if self.high.abs() > 1.0 / 16.0 {
-            let one = Self::from(1.0);
-            let h = one / (one + (one + self).sqrt());
-            let remainder = (self * h * h).arc_remainder();
-            return (one + Self::from(2.0) * h * remainder) * h * h;
+            return self.arc_remainder_by_halving();
         }
         let mut sum = Self::from(power_series(self.high, &TRAILING));
         for (k, &high) in LEADING.iter().enumerate().rev() {
@@ -158,5 +171,15 @@ impl Double {
             sum = Self::new(high, low) + self * sum;
         }
         sum
+    }
+}
+
+impl Double {
+    /// The angle of the direction (cosine, sine): that of the rounded coordinates, and what
+    /// their rounding took from it.
+    pub(super) fn angle(cosine: Self, sine: Self) -> Self {
+        let turn = sine.low * cosine.high - cosine.low * sine.high;
+        let square = sine.high * sine.high + cosine.high * cosine.high;
+        Self::new(sine.high.atan2(cosine.high), turn / square)
     }
 }

@@ -8,7 +8,7 @@ use crate::time::two_product;
 /// below 10⁻²⁷ wherever the result is finite. `exp(a * b)` has the relative error |r|, up to
 /// |ab|·2⁻⁵³: it grows with the exponent, as in a quantity e^{γt}ψ(x) over a long time.
 ///
-/// - Domain: all a, b. Where a·b overflows or underflows it is `exp(a * b)`.
+/// - Domain: all a, b. Where a·b overflows it is `exp(a * b)`, 0 or ∞; NaN for 0 and ∞.
 /// - Accuracy: 2 ulp.
 /// - Source: the product a·b = p + r by Dekker, *Numer. Math.* 18 (1971).
 ///
@@ -27,6 +27,18 @@ pub fn exp_product(a: f64, b: f64) -> f64 {
     if corrected.is_finite() {
         corrected
     } else {
-        (a * b).exp()
+        exp_product_at_limits(a, b, p)
+    }
+}
+
+/// Where eᵖ overflows, and where a or b is too large to be split into halves.
+#[cold]
+fn exp_product_at_limits(a: f64, b: f64, p: f64) -> f64 {
+    let e = p.exp();
+    let r = a.mul_add(b, -p);
+    if e.is_finite() && r.is_finite() {
+        e + e * r
+    } else {
+        e
     }
 }

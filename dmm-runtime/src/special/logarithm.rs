@@ -4,16 +4,22 @@
 //! is 2 A(−z²)/(a + b): the reciprocal of the mean, times a series that depends on the relative
 //! step alone. What the sum a + b loses in rounding is known exactly and put back.
 
-use super::arc::arc_remainder;
+use super::arc::{CLOSE, HOT, arc_remainder};
 use super::double::Double;
+use super::extended::Extended;
+use crate::time::two_product;
 
-/// a + b between which every intermediate result is a normal number.
+/// a + b between which every intermediate result of a divided difference is a normal number.
 const TINY: f64 = 1e-300;
 const HUGE: f64 = 1e300;
 
-/// z² of b/a = 4 and 1/4. Beyond, ln(b/a) is large enough to be used as it is, and the terms of
-/// the derivative hardly cancel.
-const MODERATE: f64 = 0.36;
+/// The same for its derivative, which takes products.
+const TINY_FACTOR: f64 = 1e-140;
+const HUGE_FACTOR: f64 = 1e140;
+
+/// b/a from which the terms of the derivative hardly cancel, so that a logarithm with the
+/// digits of a double does.
+const APART: f64 = 64.0;
 
 /// 2¹⁰⁰, by which arguments beyond TINY and HUGE are scaled; exact.
 const SCALE: f64 = (1_u128 << 100) as f64;
@@ -43,7 +49,7 @@ pub fn ln_dd(a: f64, b: f64) -> f64 {
     } = Double::sum(a, b);
     let z = (b - a) / sum;
     let x = z * z;
-    if x <= MODERATE && sum > TINY && sum < HUGE {
+    if x <= CLOSE && sum > TINY && sum < HUGE {
         let reciprocal = 2.0 / sum;
         // The last term is what the rounding of the sum took away.
         reciprocal + reciprocal * (x * arc_remainder(-x) - 0.5 * reciprocal * error)
@@ -56,7 +62,7 @@ pub fn ln_dd(a: f64, b: f64) -> f64 {
 fn ln_dd_far(a: f64, b: f64, x: f64) -> f64 {
     if let Some(limit) = limit(a, b, 1.0) {
         limit
-    } else if x <= MODERATE {
+    } else if x <= CLOSE {
         let scale = if a > 1.0 { 1.0 / SCALE } else { SCALE };
         ln_dd(a * scale, b * scale) * scale
     } else {
@@ -73,50 +79,77 @@ fn ln_dd_far(a: f64, b: f64, x: f64) -> f64 {
 /// Domain: a, b > 0; limits −∞ where one is 0, 0 where one is infinite; NaN for negative
 /// arguments and for 0 together with ∞.
 ///
-/// Accuracy: 4 ulp.
+/// Accuracy: 2 ulp.
 ///
 /// Source: derivative of the formula of [`ln_dd`].
 #[inline]
 pub fn ln_dd_prime(a: f64, b: f64) -> f64 {
-    let Double {
-        high: sum,
-        low: error,
-    } = Double::sum(a, b);
-    let z = (b - a) / sum;
+    let sum = Double::sum(a, b);
+    let z = (b - a) / sum.high;
     let x = z * z;
-    if x <= MODERATE && sum > TINY && sum < HUGE {
-        let reciprocal = 1.0 / sum;
-        let tangent = 1.0 / b;
-        -reciprocal * (tangent + reciprocal * (2.0 * z * arc_remainder(-x) - error * tangent))
-    } else {
-        ln_dd_prime_far(a, b, x)
+    if sum.high > TINY_FACTOR && sum.high < HUGE_FACTOR {
+        if x <= HOT {
+            return near_tangent(b, z, sum, 0.0);
+        }
+        if x <= CLOSE {
+            return ln_dd_prime_close(b, z, sum);
+        }
     }
+    ln_dd_prime_far(a, b)
+}
+
+/// Where the term 2zB/(a + b) is so large that its own error leaves no room for that of the
+/// quotient 1/(b (a + b)).
+fn ln_dd_prime_close(b: f64, z: f64, sum: Double) -> f64 {
+    let divisor = b * sum.high;
+    let (back, back_error) = two_product(1.0 / divisor, divisor);
+    near_tangent(b, z, sum, (back - 1.0) + back_error)
+}
+
+/// −(1 + 2zB b/(a + b))/(b (a + b)), `lost` what the rounding of 1/(b (a + b)) took away.
+#[inline]
+fn near_tangent(b: f64, z: f64, sum: Double, lost: f64) -> f64 {
+    let (divisor, divisor_error) = two_product(b, sum.high);
+    let leading = 1.0 / divisor;
+    // The second term as a part of the first, less what the rounding of the sum took away.
+    let bend = (2.0 * z * arc_remainder(-(z * z)) * b - sum.low) / sum.high;
+    let lost = lost + divisor_error * leading;
+    leading * (lost - bend) - leading
 }
 
 #[cold]
-fn ln_dd_prime_far(a: f64, b: f64, x: f64) -> f64 {
+fn ln_dd_prime_far(a: f64, b: f64) -> f64 {
     if let Some(limit) = limit(a, b, -1.0) {
         return limit;
     }
-    if x <= MODERATE {
-        let scale = if a > 1.0 { 1.0 / SCALE } else { SCALE };
-        return ln_dd_prime(a * scale, b * scale) * scale * scale;
-    }
     let (low, high) = (a.min(b), a.max(b));
+    let is_close = high / low < APART;
+    if high < TINY_FACTOR || is_close && high > HUGE_FACTOR {
+        // Powers of two: the arguments are moved towards 1 exactly.
+        let scale = if high > 1.0 { 1.0 / SCALE } else { SCALE };
+        return ln_dd_prime_far(a * scale, b * scale) * scale * scale;
+    }
+    if is_close {
+        let (a, b) = (Double::from(a), Double::from(b));
+        let sum = a + b;
+        let z = (b - a) / sum;
+        let bend = Double::from(2.0) * z * (-(z * z)).arc_remainder() / sum;
+        return -((Double::from(1.0) / b + bend) / sum).high;
+    }
     let logarithm = ln_quotient(high, low);
     let difference = Double::sum(high, -low);
     // How far the secant's slope is from the tangent's, times b − a or times b.
     let one = Double::from(1.0);
     if a < b {
         let bend = logarithm - (one - Double::from(low) / Double::from(high));
-        -bend.quotient(difference) / difference.high
+        -(bend / difference).quotient(difference)
     } else {
         let bend = one - logarithm * (Double::from(low) / difference);
-        -bend.high / (difference.high * low)
+        -(bend / difference).quotient(Double::from(low))
     }
 }
 
-/// ln(high/low) for high/low ≥ 4.
+/// ln(high/low) for high/low ≥ 2.
 fn ln_quotient(high: f64, low: f64) -> Double {
     let quotient = high / low;
     if quotient.is_finite() {

@@ -6,7 +6,7 @@ mod start;
 pub(crate) mod watch;
 
 pub use locate::{Crossing, Located, Locator, NewtonLocator};
-pub(crate) use start::{check_region, find_region, neighbour, rate_in};
+pub(crate) use start::{Start, check_region, find_region, neighbour, rate_in};
 
 use crate::system::{Boundary, Flow, Vector};
 

@@ -5,14 +5,36 @@ use dashu_float::{FBig, round::mode::HalfEven};
 /// A binary number of arbitrary precision.
 pub(crate) type Big = FBig<HalfEven, 2>;
 
+/// Whether a number is within the range of doubles; subnormal ones and those that round to 0
+/// are.
+pub(crate) fn is_representable(exact: &Big) -> bool {
+    exact.to_f64().value().is_finite()
+}
+
+/// The unit in the last place of a number: 2ᵉ⁻⁵² for 2ᵉ ≤ |exact| < 2ᵉ⁺¹, at least that of the
+/// subnormal numbers, 2⁻¹⁰⁷⁴ (Goldberg 1991).
+fn ulp(exact: &Big) -> Big {
+    let exponent = if *exact == Big::ZERO {
+        -1074
+    } else {
+        // The significand of a `Repr` is an integer: |exact| = significand · 2ᵉ.
+        let repr = exact.repr();
+        let top = repr.exponent() + repr.digits() as isize - 1;
+        (top - 52).max(-1074)
+    };
+    Big::from_parts(1.into(), exponent)
+}
+
 /// |value − exact| in ulp of the exact value; infinite where the value is not a number.
 pub(crate) fn distance(value: f64, exact: &Big) -> f64 {
     let Ok(value) = Big::try_from(value) else {
         return f64::INFINITY;
     };
-    let size = exact.to_f64().value().abs();
-    let ulp = Big::try_from(size - size.next_down()).unwrap();
-    ((value.with_precision(200).value() - exact) / ulp)
+    if !value.repr().is_finite() {
+        return f64::INFINITY;
+    }
+    // The subtraction is rounded to the precision of its operands.
+    ((value.with_precision(2 * DIGITS).value() - exact) / ulp(exact))
         .to_f64()
         .value()
         .abs()
@@ -29,7 +51,15 @@ fn big(value: f64, others: &[f64]) -> Big {
     let largest = sizes.clone().fold(0.0, f64::max);
     let least = sizes.fold(f64::INFINITY, f64::min);
     let magnitude = if largest < 1.0 && largest > 0.0 {
-        -2.0 * largest.log2()
+        // Twice as many where the leading term of the series vanishes, at b = −a/2.
+        let is_half = others
+            .iter()
+            .any(|other| other + 2.0 * value == 0.0 || 2.0 * other + value == 0.0);
+        if is_half {
+            -4.0 * largest.log2()
+        } else {
+            -2.0 * largest.log2()
+        }
     } else {
         2.0 * least.max(1.0).log2()
     };
@@ -113,6 +143,10 @@ pub(crate) mod exact {
     fn cosine(u: &Big) -> (Big, Big) {
         let square = one(u) - u * u;
         (square.sqrt(), square)
+    }
+
+    pub(crate) fn exp_product(a: f64, b: f64) -> Big {
+        (big(a, &[]) * big(b, &[])).exp()
     }
 
     pub(crate) fn ln_dd(a: f64, b: f64) -> Big {

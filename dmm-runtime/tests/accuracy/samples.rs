@@ -177,14 +177,35 @@ pub(crate) fn unit_opposite(random: &mut Random, index: usize) -> (f64, f64) {
 }
 
 /// Near the curve on which ∂ asin_dd(a, b)/∂b changes its sign.
-pub(crate) fn asin_dd_prime_zeros(random: &mut Random, _: usize) -> (f64, f64) {
-    let a = random.signed(1e-6, 0.999);
-    let b = zero(
-        a,
-        dmm_runtime::special::asin_dd_prime,
-        a.abs().min(0.999_999),
-    );
-    (a, b + b * random.signed(1e-12, 0.1))
+pub(crate) fn asin_dd_prime_zeros(random: &mut Random, index: usize) -> (f64, f64) {
+    let least = if index.is_multiple_of(8) { 1e-80 } else { 1e-6 };
+    let a = random.signed(least, 0.999);
+    let b = zero(a, dmm_runtime::special::asin_dd_prime, a.abs());
+    near_zero(random, index, a, b)
+}
+
+/// b = −a/2, where the leading term of a derivative's series vanishes.
+pub(crate) fn half_opposite(random: &mut Random, index: usize) -> (f64, f64) {
+    let least = if index.is_multiple_of(4) {
+        1e-100
+    } else {
+        1e-9
+    };
+    let a = random.signed(least, 0.1);
+    (a, -0.5 * a)
+}
+
+/// Where asin_dd and its derivative change their form: at w² = 1/256 and 0.1112.
+pub(crate) fn unit_seams(random: &mut Random, index: usize) -> (f64, f64) {
+    let w = if index.is_multiple_of(2) {
+        0.0625
+    } else {
+        0.333_47
+    };
+    let alpha = random.uniform(-1.57, 1.57 - 2.0 * w);
+    let a = alpha.sin();
+    let b = (alpha + 2.0 * f64::atan(w)).sin();
+    (a, shifted(random, b).min(1.0 - 1e-16))
 }
 
 pub(crate) fn real_coincident(random: &mut Random, index: usize) -> (f64, f64) {
@@ -216,22 +237,122 @@ pub(crate) fn real_orthogonal(random: &mut Random, index: usize) -> (f64, f64) {
 }
 
 /// Near the curve on which ∂ atan_dd(a, b)/∂b changes its sign.
-pub(crate) fn atan_dd_prime_zeros(random: &mut Random, _: usize) -> (f64, f64) {
-    let a = random.signed(1e-6, 1e4);
+pub(crate) fn atan_dd_prime_zeros(random: &mut Random, index: usize) -> (f64, f64) {
+    let (least, largest) = match index % 8 {
+        0 => (1e-80, 1e80),
+        1 => (1e80, 1e154),
+        _ => (1e-6, 1e6),
+    };
+    let a = random.signed(least, largest);
     let b = zero(a, dmm_runtime::special::atan_dd_prime, a.abs());
-    (a, b + b * random.signed(1e-12, 0.1))
+    near_zero(random, index, a, b)
 }
 
-/// The zero b, of the sign opposite to a and no greater than `limit`, by bisection.
+/// Where atan_dd and its derivative change their form: at w² = 1/256 and 0.1112, at w = 1, and
+/// at arguments of 1e140.
+pub(crate) fn real_seams(random: &mut Random, index: usize) -> (f64, f64) {
+    let a = match index % 4 {
+        3 => return (shifted(random, 1e140), random.signed(1e-12, 1e12)),
+        _ => random.uniform(-20.0, 20.0),
+    };
+    let w = [0.0625, 0.333_47, 1.0][index % 4];
+    (a, shifted(random, (a.atan() + f64::atan(w)).tan()))
+}
+
+/// `u` or one of its neighbours.
+fn shifted(random: &mut Random, u: f64) -> f64 {
+    f64::from_bits(u.to_bits() + random.bits() % 9 - 4)
+}
+
+/// The zero (a, b) of a derivative itself, next to it, and around it.
+fn near_zero(random: &mut Random, index: usize, a: f64, b: f64) -> (f64, f64) {
+    match index % 3 {
+        0 => (a, shifted(random, b)),
+        1 => (a, b + b * random.signed(1e-16, 1e-8)),
+        _ => (a, b + b * random.signed(1e-8, 0.1)),
+    }
+}
+
+/// The double next to the zero b, of the sign opposite to a and no greater than `limit`, by
+/// bisection of the doubles.
 fn zero(a: f64, prime: fn(f64, f64) -> f64, limit: f64) -> f64 {
-    let (mut low, mut high) = (0.0, -a.signum() * limit);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if (prime(a, middle) > 0.0) == (prime(a, low) > 0.0) {
+    let at = |bits: u64| f64::from_bits(bits).copysign(-a);
+    let (mut low, mut high) = (0, limit.to_bits());
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if (prime(a, at(middle)) > 0.0) == (prime(a, 0.0) > 0.0) {
             low = middle;
         } else {
             high = middle;
         }
     }
-    high
+    at(high)
+}
+
+/// Exponents a·b of every size, the factors of any.
+pub(crate) fn exponents(random: &mut Random, index: usize) -> (f64, f64) {
+    let a = random.real(index);
+    let product = match index % 3 {
+        0 => random.signed(1e-20, 1.0),
+        _ => random.uniform(-745.0, 709.7),
+    };
+    (a, product / a)
+}
+
+/// Exponents at which the exponential overflows or becomes subnormal, and factors that are
+/// nearly the largest.
+pub(crate) fn extreme_exponents(random: &mut Random, index: usize) -> (f64, f64) {
+    let product = match index % 4 {
+        0 => random.uniform(709.78, 709.782_712_893_384),
+        1 => random.uniform(-745.13, -708.0),
+        _ => random.uniform(-700.0, 700.0),
+    };
+    let a = match index % 4 {
+        2 | 3 => random.magnitude(1e298, f64::MAX),
+        _ => random.magnitude(1e-3, 1e3),
+    };
+    (a, product / a)
+}
+
+/// Subnormal numbers and the least normal ones.
+pub(crate) fn least(random: &mut Random, _: usize) -> (f64, f64) {
+    let tiny = |random: &mut Random| {
+        let top = random.bits() % 52;
+        random.sign() * f64::from_bits(random.bits() >> (11 + top) | 1)
+    };
+    (tiny(random), tiny(random))
+}
+
+/// The largest numbers.
+pub(crate) fn largest(random: &mut Random, index: usize) -> (f64, f64) {
+    let b = match index % 3 {
+        0 => random.signed(1e290, f64::MAX),
+        1 => random.signed(1e-8, 1e16),
+        _ => random.signed(1e60, 1e160),
+    };
+    let a = random.signed(1e150, f64::MAX);
+    if index.is_multiple_of(2) {
+        (a, b)
+    } else {
+        (b, a)
+    }
+}
+
+/// Where the functions of one argument change their form.
+pub(crate) fn seams(random: &mut Random, index: usize) -> (f64, f64) {
+    const SEAMS: [f64; 8] = [0.25, 1.0, 2.5, 3.5, 4.0, 700.0, 717.2, 720.0];
+    (random.sign() * shifted(random, SEAMS[index % 8]), 0.0)
+}
+
+/// Where ln_dd and its derivative change their form: at ratios of the arguments with z² = 1/256
+/// and 0.1112, and of 64.
+pub(crate) fn positive_seams(random: &mut Random, index: usize) -> (f64, f64) {
+    const RATIOS: [f64; 3] = [17.0 / 15.0, 2.000_649, 64.0];
+    let a = random.real(index).abs();
+    let b = shifted(random, a * RATIOS[index % 3]);
+    if index.is_multiple_of(2) {
+        (a, b)
+    } else {
+        (b, a)
+    }
 }

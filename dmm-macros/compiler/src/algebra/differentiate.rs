@@ -7,7 +7,7 @@
 //! those (second derivatives, which no scheme needs) are written by the defining quotients
 //! ∂h′/∂b = (h″(b) − 2h\[a, b\]′)/(b − a) and ∂h′/∂a = (h\[a, b\]′ − h\[b, a\]′)/(b − a).
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use egg::Language;
 
@@ -21,24 +21,66 @@ pub fn differentiate(dag: &mut Dag, root: Id, variable: &Name) -> Id {
 
 /// ∇`root`, in the order of `variables`.
 pub fn gradient(dag: &mut Dag, root: Id, variables: &[Name]) -> Vec<Id> {
-    variables
-        .iter()
-        .map(|variable| differentiate(dag, root, variable))
-        .collect()
+    jacobian(dag, &[root], variables).pop().unwrap_or_default()
 }
 
 /// ∂`roots`/∂`variables`, a row a root.
 pub fn jacobian(dag: &mut Dag, roots: &[Id], variables: &[Name]) -> Vec<Vec<Id>> {
+    let dependence = Dependence::new(dag, roots, variables);
     let mut derivatives: Vec<Derivative<'_>> = variables.iter().map(Derivative::new).collect();
     roots
         .iter()
         .map(|&root| {
             derivatives
                 .iter_mut()
-                .map(|derivative| derivative.of(dag, root))
+                .enumerate()
+                .map(|(index, derivative)| {
+                    derivative.of_dependent(dag, root, |id| dependence.is_on(id, index))
+                })
                 .collect()
         })
         .collect()
+}
+
+/// Which nodes depend on which of several variables: most entries of a large Jacobian are
+/// zero, and the others are made of few nodes.
+struct Dependence {
+    /// A set of variables a node, one bit each.
+    sets: Vec<u64>,
+    /// The words of a set.
+    words: usize,
+}
+
+impl Dependence {
+    fn new(dag: &Dag, roots: &[Id], variables: &[Name]) -> Self {
+        let words = variables.len().div_ceil(64);
+        let indices: HashMap<&Name, usize> = variables.iter().zip(0..).collect();
+        let mut dependence = Self {
+            sets: vec![0; dag.len() * words],
+            words,
+        };
+        for id in dag.reachable(roots.iter().copied()) {
+            let start = usize::from(id) * words;
+            if let Math::Variable(name) = &dag[id]
+                && let Some(index) = indices.get(name)
+            {
+                dependence.sets[start + index / 64] |= 1 << (index % 64);
+            }
+            for &child in dag[id].children() {
+                let child = usize::from(child) * words;
+                for word in 0..words {
+                    dependence.sets[start + word] |= dependence.sets[child + word];
+                }
+            }
+        }
+        dependence
+    }
+
+    /// Whether the node depends on the variable with this index.
+    fn is_on(&self, id: Id, index: usize) -> bool {
+        let word = usize::from(id) * self.words + index / 64;
+        (self.sets.get(word)).is_some_and(|word| word >> (index % 64) & 1 == 1)
+    }
 }
 
 /// The derivatives in one variable that are known so far.
@@ -68,6 +110,30 @@ impl<'a> Derivative<'a> {
         match self.memo.get(&root) {
             Some(&Some(derivative)) => derivative,
             _ => dag.integer(0),
+        }
+    }
+
+    /// The same, where it is known which nodes depend on the variable: only those are visited.
+    fn of_dependent(&mut self, dag: &mut Dag, root: Id, depends: impl Fn(Id) -> bool) -> Id {
+        if !depends(root) {
+            return dag.integer(0);
+        }
+        let mut seen = BTreeSet::new();
+        let mut stack = vec![root];
+        while let Some(id) = stack.pop() {
+            if !self.memo.contains_key(&id) && seen.insert(id) {
+                let children = dag[id].children().iter().copied();
+                stack.extend(children.filter(|&child| depends(child)));
+            }
+        }
+        // children have smaller identifiers than their parents
+        for id in seen {
+            let derivative = self.node(dag, id);
+            self.memo.insert(id, derivative);
+        }
+        match self.child(root) {
+            Some(derivative) => derivative,
+            None => dag.integer(0),
         }
     }
 

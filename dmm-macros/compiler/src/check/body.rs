@@ -1,144 +1,302 @@
-//! The contents of a region: a complete vector field and conserved quantities.
+//! The contents of a region, or what all regions share: a vector field and conserved quantities.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use proc_macro2::Ident;
+use quote::format_ident;
 
 use super::names::Kind;
 use super::{Resolver, Scope};
 use crate::algebra::Id;
 use crate::diagnostics::Extent;
-use crate::model::Conserved;
-use crate::syntax::{Definition, Derivative, Item};
+use crate::diagnostics::catalogue::check as codes;
+use crate::model::{Claim, Conservation, Conserved};
+use crate::syntax::{ConservedItem, Definition, Derivative, Item};
 
 /// A vector field and its conserved quantities while they are read.
+#[derive(Clone)]
 pub(super) struct Body {
-    /// By state: whether there is a `der`, and its formula if it is in order.
-    pub(super) field: Vec<Option<Option<(Id, Extent)>>>,
+    /// The name of the region; nothing of what stands outside of regions.
+    pub(super) region: Option<Ident>,
+    /// By state: its rate.
+    pub(super) field: Vec<Option<Component>>,
     pub(super) conserved: Vec<Conserved>,
-    seen: BTreeSet<String>,
+    /// Indices of states, (q, p).
+    pub(super) canonical: Vec<(usize, usize)>,
+    /// The names of the conserved quantities, and whether all regions share them.
+    seen: BTreeMap<String, bool>,
+    /// Whether a rate was given to an unknown state: then the state without one was meant.
+    pub(super) has_unknown_state: bool,
 }
 
-impl Resolver<'_> {
-    /// The `let`, `der` and `conserved` items of a block.
-    pub(super) fn body(&mut self, items: &[&Item], region: Option<&Ident>) -> Body {
-        let mut body = Body {
-            field: vec![None; self.states.len()],
+/// The rate of a state.
+#[derive(Clone)]
+pub(super) struct Component {
+    /// Its formula, if that is in order.
+    pub(super) rate: Option<(Id, Extent)>,
+    /// The Hamiltonian that it comes from.
+    pub(super) hamiltonian: Option<String>,
+    /// Whether all regions share it.
+    is_shared: bool,
+    /// Whether it was only meant to be given, probably.
+    is_guess: bool,
+}
+
+impl Body {
+    /// Without items, of a system with this many states.
+    pub(super) fn new(states: usize) -> Self {
+        Self {
+            region: None,
+            field: vec![None; states],
             conserved: Vec::new(),
-            seen: BTreeSet::new(),
-        };
+            canonical: Vec::new(),
+            seen: BTreeMap::new(),
+            has_unknown_state: false,
+        }
+    }
+
+    /// What all regions share, as the beginning of the region `ident`.
+    pub(super) fn in_region(&self, ident: &Ident) -> Self {
+        Self {
+            region: Some(ident.clone()),
+            ..self.clone()
+        }
+    }
+
+    fn within(&self) -> String {
+        match &self.region {
+            Some(region) => format!(" in the region `{region}`"),
+            None => String::new(),
+        }
+    }
+}
+
+impl<'d> Resolver<'d> {
+    /// The items of a block; its `let`s are declared before.
+    pub(super) fn items(&mut self, items: &[&'d Item], body: &mut Body) {
         for item in items {
             if let Item::Let(definition) = item {
                 self.names
                     .declare_in_region(&definition.ident, self.diagnostics);
             }
         }
-        for item in items {
-            match item {
-                Item::Let(definition) => self.define(definition, Kind::Let, Scope::All),
-                Item::Derivative(item) => self.derivative(item, region, &mut body),
-                Item::Conserved(item) => self.conserved(item, region, &mut body),
-                _ => {}
-            }
-        }
-        body
+        items.iter().for_each(|item| self.item(item, body));
     }
 
-    fn derivative(&mut self, item: &Derivative, region: Option<&Ident>, body: &mut Body) {
+    /// An item of a region, or of a loop in it.
+    pub(super) fn item(&mut self, item: &'d Item, body: &mut Body) {
+        match item {
+            Item::Let(definition) => self.define(definition, Kind::Let, Scope::All),
+            Item::Derivative(item) => self.derivative(item, body),
+            Item::Conserved(item) => self.conserved(item, body),
+            Item::Hamiltonian(item) => self.hamiltonian(item, body),
+            Item::For(item) => self.for_item(item, body),
+            // these stand at the top level only
+            Item::State(_)
+            | Item::Parameter(_)
+            | Item::Constant(_)
+            | Item::Function(_)
+            | Item::Interface(_)
+            | Item::Region(_) => {}
+        }
+    }
+
+    fn derivative(&mut self, item: &'d Derivative, body: &mut Body) {
         let formula = self.formula(&item.formula, Scope::All);
-        let entry = formula.map(|formula| (formula.id, item.formula.extent));
-        let Some(index) = self.state_index(&item.state) else {
-            if let Some(meant) = self.not_a_state(&item.state)
-                && let Some(slot) = body.field.get_mut(meant)
-            {
-                slot.get_or_insert(None);
+        let rate = formula.map(|formula| (formula.id, item.formula.extent));
+        let found = self.target(&item.target, false, body);
+        if self.is_rehearsal && found.is_right && !self.is_quiet {
+            return;
+        }
+        for state in found.states {
+            if found.is_right {
+                self.give(body, state, rate, None, item.target.extent);
+            } else {
+                guess(body, state);
             }
+        }
+        if self.is_quiet {
+            // a loop that is wrong was probably meant to give all of them
+            self.guess_group(&item.target.ident.to_string(), body);
+        }
+    }
+
+    fn guess_group(&self, group: &str, body: &mut Body) {
+        if let Some(&(first, count)) = self.state_groups.get(group) {
+            (first..first + count.unwrap_or(1)).for_each(|state| guess(body, state));
+        }
+    }
+
+    /// Takes note of the rate of a state.
+    pub(super) fn give(
+        &mut self,
+        body: &mut Body,
+        state: usize,
+        rate: Option<(Id, Extent)>,
+        hamiltonian: Option<&str>,
+        place: Extent,
+    ) {
+        let is_shared = body.region.is_none();
+        let Some(slot) = body.field.get_mut(state) else {
             return;
         };
-        match body.field.get_mut(index) {
-            Some(Some(_)) => {
-                let message = format!("`der({})` is given twice{}", item.state, within(region));
-                self.error(&item.state, message);
+        match slot {
+            Some(earlier) if !earlier.is_guess => {
+                let earlier = earlier.clone();
+                self.given_twice(body, state, &earlier, hamiltonian, place);
+                // another element was meant, probably
+                if let Some(ident) = self.states.get(state).map(|state| &state.ident) {
+                    self.guess_group(&ident.to_string(), body);
+                }
             }
-            Some(slot) => *slot = Some(entry),
-            None => {}
-        }
-    }
-
-    /// Reports that `ident` is no state; the index of the state that was probably meant.
-    fn not_a_state(&mut self, ident: &Ident) -> Option<usize> {
-        let text = ident.to_string();
-        if let Some(kind) = self.names.get(&text).map(|symbol| symbol.kind) {
-            if kind != Kind::State && !self.names.is_refused(&text) {
-                self.names.mark_used(&text);
-                self.error(
-                    ident,
-                    format!("`{text}` is a {kind}; only states have a `der`"),
-                );
+            _ => {
+                *slot = Some(Component {
+                    rate,
+                    hamiltonian: hamiltonian.map(str::to_owned),
+                    is_shared,
+                    is_guess: false,
+                });
             }
-            return None;
-        }
-        if self.names.is_refused(&text) {
-            return None;
-        }
-        let closest = self.names.closest(&text, &[Kind::State]);
-        let message = match &closest {
-            Some(state) => format!("there is no state `{text}`; did you mean `{state}`?"),
-            None if text == "t" => "`t` is the time, which needs no `der`".into(),
-            None => format!("there is no state `{text}`: declare `state {text};`"),
-        };
-        self.error(ident, message);
-        closest.and_then(|state| self.states.iter().position(|known| known.ident == state))
-    }
-
-    fn conserved(&mut self, item: &Definition, region: Option<&Ident>, body: &mut Body) {
-        let formula = self.formula(&item.formula, Scope::All);
-        if !body.seen.insert(item.ident.to_string()) {
-            let message = format!(
-                "the conserved quantity `{}` is declared twice{}",
-                item.ident,
-                within(region)
-            );
-            self.error(&item.ident, message);
-        } else if let Some(formula) = formula {
-            body.conserved.push(Conserved {
-                attributes: item.attributes.clone(),
-                ident: item.ident.clone(),
-                psi: formula.id,
-                span: item.formula.extent,
-            });
         }
     }
 
-    /// The vector field, if every state has its `der`.
-    pub(super) fn complete(
+    fn given_twice(
         &mut self,
-        field: Vec<Option<Option<(Id, Extent)>>>,
-        place: &Ident,
-        region: Option<&Ident>,
-    ) -> Option<(Vec<Id>, Vec<Extent>)> {
-        let missing: Vec<String> = self
-            .states
-            .iter()
-            .zip(&field)
-            .filter(|(_, component)| component.is_none())
-            .map(|(state, _)| format!("`der({})`", state.ident))
-            .collect();
-        if !missing.is_empty() {
-            let message = match region {
-                Some(region) => format!("the region `{region}` has no {}", missing.join(", ")),
-                None => format!("the system has no {}", missing.join(", ")),
-            };
-            self.error(place, message);
+        body: &Body,
+        state: usize,
+        earlier: &Component,
+        hamiltonian: Option<&str>,
+        place: Extent,
+    ) {
+        if self.is_quiet {
+            return;
         }
-        let components: Vec<(Id, Extent)> = field
-            .into_iter()
-            .map(Option::flatten)
-            .collect::<Option<_>>()?;
-        Some(components.into_iter().unzip())
+        let Some(name) = self.states.get(state).map(|state| state.name.clone()) else {
+            return;
+        };
+        let shared = match earlier.is_shared && body.region.is_some() {
+            true => " of all regions",
+            false => "",
+        };
+        if !shared.is_empty() && !self.repeated.insert(format!("der({name})")) {
+            return;
+        }
+        let within = format!("{}{}", body.within(), self.turn(", with"));
+        let (code, message) = match (earlier.hamiltonian.as_deref(), hamiltonian) {
+            (None, None) if shared.is_empty() => (
+                codes::DERIVATIVE_TWICE,
+                format!(
+                    "`der({name})` is given twice{}: write one formula with all its terms",
+                    within
+                ),
+            ),
+            (None, None) => (
+                codes::ALREADY_SHARED,
+                format!(
+                    "`der({name})` stands at the top level already, for all regions: it cannot be given again{}",
+                    within
+                ),
+            ),
+            (Some(one), Some(other)) if one == other => (
+                codes::PAIRED_TWICE,
+                format!("`{name}` stands twice in the pairs of `{one}`"),
+            ),
+            (Some(one), Some(other)) => (
+                codes::PAIRED_TWICE,
+                format!("`{name}` is in a pair of `{other}` and in one of `{one}`{shared}"),
+            ),
+            (Some(h), None) => (
+                codes::PAIRED_AND_DERIVATIVE,
+                format!(
+                    "`{name}` is in a pair of the hamiltonian `{h}`{shared}, which gives `der({name})`: remove one of them"
+                ),
+            ),
+            (None, Some(h)) => (
+                codes::PAIRED_AND_DERIVATIVE,
+                format!(
+                    "`{name}` is in a pair of the hamiltonian `{h}` and has a `der`{shared}: remove one of them"
+                ),
+            ),
+        };
+        self.report(code, place, message);
+    }
+
+    fn conserved(&mut self, item: &'d ConservedItem, body: &mut Body) {
+        let formula = self.formula(&item.definition.formula, Scope::All);
+        if self.is_rehearsal {
+            return;
+        }
+        let Some(ident) = self.new_quantity(&item.definition, body) else {
+            return;
+        };
+        if let Some(formula) = formula {
+            let claim = match item.assumed {
+                true => Claim::Assumed,
+                false => Claim::Conserved,
+            };
+            add_quantity(body, &item.definition, ident, formula.id, claim);
+        }
+    }
+
+    /// The name of a conserved quantity, with the values of the loop variables around it
+    /// (`energy_2`), if there is none of that name in `body`.
+    pub(super) fn new_quantity(&mut self, item: &Definition, body: &mut Body) -> Option<Ident> {
+        let mut ident = item.ident.clone();
+        for (_, value) in self.names.counters() {
+            let sign = if value < 0.0 { "minus" } else { "" };
+            ident = format_ident!("{ident}_{sign}{}", value.abs().to_string());
+        }
+        let is_shared = body.region.is_none();
+        let (code, message) = match body.seen.insert(ident.to_string(), is_shared) {
+            None => return Some(ident),
+            Some(true) if !is_shared && !self.repeated.insert(ident.to_string()) => return None,
+            Some(true) if !is_shared => (
+                codes::ALREADY_SHARED,
+                format!(
+                    "`{ident}` is declared at the top level already, for all regions: it cannot be declared again{}",
+                    body.within()
+                ),
+            ),
+            Some(_) => (
+                codes::CONSERVED_TWICE,
+                format!(
+                    "the conserved quantity `{ident}` is declared twice{}",
+                    body.within()
+                ),
+            ),
+        };
+        self.report_turn(code, &item.ident, message);
+        None
     }
 }
 
-fn within(region: Option<&Ident>) -> String {
-    region.map_or(String::new(), |region| format!(" in the region `{region}`"))
+/// Adds ψ to `body`.
+pub(super) fn add_quantity(
+    body: &mut Body,
+    item: &Definition,
+    ident: Ident,
+    psi: Id,
+    claim: Claim,
+) {
+    body.conserved.push(Conserved {
+        attributes: item.attributes.clone(),
+        ident,
+        psi,
+        span: item.formula.extent,
+        claim,
+        evidence: Conservation::Unknown,
+    });
+}
+
+/// Takes note that the rate of a state was probably meant to be given.
+pub(super) fn guess(body: &mut Body, state: usize) {
+    let is_shared = body.region.is_none();
+    if let Some(slot @ None) = body.field.get_mut(state) {
+        *slot = Some(Component {
+            rate: None,
+            hamiltonian: None,
+            is_shared,
+            is_guess: true,
+        });
+    }
 }

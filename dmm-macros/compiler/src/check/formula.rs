@@ -4,73 +4,211 @@
 //! without variables its floating-point value is carried, so that ln(−1), 1/0 or exp(1000) is
 //! found where it stands, and not by a trajectory that ends in NaN.
 
-use proc_macro2::Ident;
-
-use super::names::{Kind, Progress};
-use super::{Resolver, Scope, Value, functions, number};
-use crate::algebra::{Function, Rational, Verdict, decide_zero};
-use crate::model::Model;
+use super::number::{self, Problem};
+use super::{Resolver, Scope, Value};
+use crate::algebra::{Id, Math, Rational, is_proved_zero};
+use crate::diagnostics::catalogue::check as codes;
 use crate::syntax::{Expression, ExpressionKind, Operator};
 
-/// The node of `formula`. All that is wrong is reported; nothing is returned if something was.
-pub(super) fn resolve(
-    resolver: &mut Resolver<'_>,
-    formula: &Expression,
-    scope: Scope,
-) -> Option<Value> {
-    let value = expression(resolver, formula, scope)?;
-    if number::has_unrepresentable_constant(&resolver.dag, value.id) {
-        let message = "a constant of this formula is beyond the range of floating-point numbers";
-        resolver.error(formula.extent, message);
-        return None;
-    }
-    Some(value)
-}
+/// Formulas within functions within functions may be nested this deep in all.
+const DEEPEST: usize = 600;
+/// Divisors of more nodes are not examined for being zero.
+const LARGEST_DIVISOR: usize = 1_000;
+/// The work of the proof that a divisor is zero, in nodes.
+const PROOF: usize = 200;
 
-fn expression(resolver: &mut Resolver<'_>, formula: &Expression, scope: Scope) -> Option<Value> {
-    match &formula.kind {
-        ExpressionKind::Number { value, .. } => Some(constant(resolver, value)),
-        ExpressionKind::Name(ident) => name(resolver, ident, scope),
-        ExpressionKind::Parenthesised(inner) => expression(resolver, inner, scope),
-        ExpressionKind::Negative(operand) => {
-            let operand = expression(resolver, operand, scope)?;
-            Some(Value {
-                id: resolver.dag.neg(operand.id),
-                number: operand.number.map(|number| -number),
-            })
+impl<'d> Resolver<'d> {
+    /// The node of `formula`. All that is wrong is reported; nothing is returned if something
+    /// was.
+    pub(super) fn formula(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
+        let value = self.expression(formula, scope)?;
+        if let Some((code, message)) = self.node_problem(value.id) {
+            self.report(code, formula.extent, message);
+            return None;
         }
-        ExpressionKind::Call {
-            function,
-            arguments,
-        } => call(resolver, formula, function, arguments, scope),
-        ExpressionKind::Binary {
-            operator,
-            left,
-            right,
-        } => {
-            // both, so that errors on both sides are found
-            let left = expression(resolver, left, scope);
-            let right_value = expression(resolver, right, scope);
-            binary(resolver, formula, *operator, left?, (right_value?, right))
+        Some(value)
+    }
+
+    /// What is wrong with a node below `root`; those that were examined before are in order.
+    fn node_problem(&mut self, root: Id) -> Option<Problem> {
+        let mut stack = vec![root];
+        while let Some(id) = stack.pop() {
+            let place = usize::from(id);
+            if place >= self.sound.len() {
+                self.sound.resize(self.dag.len(), false);
+            }
+            if self.sound.get(place) != Some(&false) {
+                continue;
+            }
+            let problem = number::node_problem(&self.dag, id);
+            if problem.is_some() {
+                return problem;
+            }
+            if let Some(sound) = self.sound.get_mut(place) {
+                *sound = true;
+            }
+            stack.extend_from_slice(egg::Language::children(&self.dag[id]));
+        }
+        None
+    }
+
+    /// The node of a part of a formula.
+    pub(super) fn expression(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
+        self.spend(1, formula)?;
+        if self.depth >= DEEPEST {
+            self.too_long(formula, "its functions and sums are nested too deeply");
+            return None;
+        }
+        self.depth += 1;
+        let value = self.kind(formula, scope);
+        self.depth -= 1;
+        value
+    }
+
+    fn kind(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
+        match &formula.kind {
+            ExpressionKind::Number { value, .. } => Some(self.constant(value)),
+            ExpressionKind::Name(ident) => self.name(ident, scope),
+            ExpressionKind::Parenthesised(inner) => self.expression(inner, scope),
+            ExpressionKind::Element { group, index } => self.element(formula, group, index, scope),
+            ExpressionKind::Sum {
+                variable,
+                range,
+                term,
+            } => self.sum(formula, variable, range, term, scope),
+            ExpressionKind::Negative(operand) => {
+                let operand = self.expression(operand, scope)?;
+                Some(Value {
+                    id: self.dag.neg(operand.id),
+                    number: operand.number.map(|number| -number),
+                })
+            }
+            ExpressionKind::Call {
+                function,
+                arguments,
+            } => self.call(formula, function, arguments, scope),
+            ExpressionKind::Binary {
+                operator,
+                left,
+                right,
+            } => {
+                // both, so that errors on both sides are found
+                let of_left = self.expression(left, scope);
+                let of_right = self.expression(right, scope);
+                let (left, value) = (of_left?, of_right?);
+                if *operator == Operator::Divide && self.is_zero(value, right)? {
+                    self.division_by_zero(formula, right);
+                    return None;
+                }
+                self.operation(formula, *operator, left, value)
+            }
         }
     }
-}
 
-fn constant(resolver: &mut Resolver<'_>, value: &Rational) -> Value {
-    Value {
-        id: resolver.dag.constant(value.clone()),
-        number: Some(number::double(value)),
+    /// An exact constant.
+    pub(super) fn constant(&mut self, value: &Rational) -> Value {
+        Value {
+            id: self.dag.constant(value.clone()),
+            number: Some(number::double(value)),
+        }
     }
-}
 
-fn binary(
-    resolver: &mut Resolver<'_>,
-    formula: &Expression,
-    operator: Operator,
-    left: Value,
-    (right, divisor): (Value, &Expression),
-) -> Option<Value> {
-    if operator == Operator::Divide && is_zero(resolver, right) {
+    /// `left operator right`, in `formula`; a divisor is known not to be zero.
+    pub(super) fn operation(
+        &mut self,
+        formula: &'d Expression,
+        operator: Operator,
+        left: Value,
+        right: Value,
+    ) -> Option<Value> {
+        if operator == Operator::Remainder {
+            return self.remainder(formula, left, right);
+        }
+        let both = left.number.zip(right.number);
+        let number = both.map(|(left, right)| number::operation(operator, left, right));
+        let problem = match (number, both) {
+            (Some(number), Some((left, right))) if !number.is_finite() => {
+                Some(number::operation_problem(operator, left, right))
+            }
+            _ if operator == Operator::Power => number::power_problem(&self.dag, left, right),
+            _ => number::size_problem(&self.dag, left, right),
+        };
+        if let Some((code, message)) = problem
+            // an argument that is not known yet may turn out to be a number
+            && !self.is_unknown(left.id)
+            && !self.is_unknown(right.id)
+        {
+            self.report_turn(code, formula.extent, message);
+            return None;
+        }
+        self.spend(number::work(&self.dag, left, right), formula)?;
+        let dag = &mut self.dag;
+        let id = match operator {
+            Operator::Add => dag.add(left.id, right.id),
+            Operator::Subtract => dag.sub(left.id, right.id),
+            Operator::Multiply => dag.mul(left.id, right.id),
+            Operator::Divide => dag.div(left.id, right.id),
+            // its exact value would be too long
+            _ if number::is_long_power(dag, left, right) => {
+                dag.insert(Math::Pow([left.id, right.id]))
+            }
+            _ => dag.pow(left.id, right.id),
+        };
+        // 0·x and x^0 are numbers; an exact value is better than what was carried along
+        let number = match dag.as_constant(id) {
+            Some(value) => Some(number::double(value)),
+            None => number,
+        };
+        Some(Value { id, number })
+    }
+
+    /// `left % right`, of integers.
+    fn remainder(&mut self, formula: &'d Expression, left: Value, right: Value) -> Option<Value> {
+        let (a, b) = (self.dag.as_integer(left.id), self.dag.as_integer(right.id));
+        if let (Some(a), Some(b)) = (a, b) {
+            let Some(remainder) = a.checked_rem_euclid(b) else {
+                let message = format!("`{formula}` divides by zero");
+                self.report_turn(codes::DIVISION_BY_ZERO, formula.extent, message);
+                return None;
+            };
+            return Some(Value {
+                id: self.dag.integer(remainder),
+                number: Some(remainder as f64),
+            });
+        }
+        if let Some(unknown) = self.unknown_among(&[left.id, right.id]) {
+            return Some(unknown);
+        }
+        let message = format!(
+            "`%` is for integers that are known when the system is compiled, as in `q[(i + 1) % 3]`; in `{formula}` it is not"
+        );
+        self.report_turn(codes::REMAINDER, formula.extent, message);
+        None
+    }
+
+    /// Whether a divisor is zero whatever the variables are; nothing is returned if that is
+    /// too much to find out.
+    fn is_zero(&mut self, divisor: Value, place: &Expression) -> Option<bool> {
+        if self.dag.as_constant(divisor.id).is_some() {
+            return Some(self.dag.is_zero(divisor.id));
+        }
+        if self.samples.is_not_zero(&self.dag, divisor.id) {
+            return Some(false);
+        }
+        if let Some(&known) = self.divisors.get(&divisor.id) {
+            return Some(known);
+        }
+        let size = self.dag.reachable([divisor.id]).len();
+        let mut is_zero = false;
+        if size <= LARGEST_DIVISOR {
+            self.spend(PROOF + 10 * size, place)?;
+            is_zero = is_proved_zero(&self.dag, divisor.id);
+        }
+        self.divisors.insert(divisor.id, is_zero);
+        Some(is_zero)
+    }
+
+    fn division_by_zero(&mut self, formula: &'d Expression, divisor: &Expression) {
         let message = match &divisor.kind {
             ExpressionKind::Number { .. } => "division by zero".to_string(),
             _ => format!(
@@ -78,199 +216,6 @@ fn binary(
                 divisor.inside_parentheses()
             ),
         };
-        resolver.error(formula.extent, message);
-        return None;
+        self.report_turn(codes::DIVISION_BY_ZERO, formula.extent, message);
     }
-    if operator == Operator::Power
-        && let Some(problem) = number::power_problem(&resolver.dag, left, right)
-    {
-        resolver.error(formula.extent, problem);
-        return None;
-    }
-    let both = left.number.zip(right.number);
-    let number = both.map(|(left, right)| number::operation(operator, left, right));
-    if let (Some(number), Some((left, right))) = (number, both)
-        && !number.is_finite()
-    {
-        let problem = number::operation_problem(operator, left, right);
-        resolver.error(formula.extent, problem);
-        return None;
-    }
-    let dag = &mut resolver.dag;
-    let id = match operator {
-        Operator::Add => dag.add(left.id, right.id),
-        Operator::Subtract => dag.sub(left.id, right.id),
-        Operator::Multiply => dag.mul(left.id, right.id),
-        Operator::Divide => dag.div(left.id, right.id),
-        Operator::Power => dag.pow(left.id, right.id),
-    };
-    // 0·x and x^0 are numbers; an exact value is better than what was carried along
-    let number = match dag.as_constant(id) {
-        Some(value) => Some(number::double(value)),
-        None => number,
-    };
-    Some(Value { id, number })
-}
-
-/// Whether a divisor is zero whatever the variables are.
-fn is_zero(resolver: &mut Resolver<'_>, divisor: Value) -> bool {
-    resolver.dag.is_zero(divisor.id)
-        || (resolver.dag.as_constant(divisor.id).is_none()
-            && matches!(decide_zero(&mut resolver.dag, divisor.id), Verdict::Proved))
-}
-
-fn call(
-    resolver: &mut Resolver<'_>,
-    formula: &Expression,
-    function: &Ident,
-    arguments: &[Expression],
-    scope: Scope,
-) -> Option<Value> {
-    let values: Vec<Option<Value>> = arguments
-        .iter()
-        .map(|argument| expression(resolver, argument, scope))
-        .collect();
-    let text = function.to_string();
-    let known = text.parse::<Function>().ok().filter(|f| f.is_declarable());
-    let Some(known) = known else {
-        let message = match resolver.names.get(&text).map(|symbol| symbol.kind) {
-            Some(Kind::State) if arguments.len() == 1 && arguments.iter().all(is_time) => {
-                format!("a state is written without its argument: `{text}`")
-            }
-            Some(kind) => {
-                format!("`{text}` is a {kind}, not a function; a product is written `{text}*(…)`")
-            }
-            None => functions::advice(&text),
-        };
-        resolver.names.mark_used(&text);
-        resolver.error(function, message);
-        return None;
-    };
-    let [argument] = values.as_slice() else {
-        let count = match values.len() {
-            0 => "none".to_string(),
-            many => many.to_string(),
-        };
-        resolver.error(
-            formula.extent,
-            format!("`{known}` takes one argument, not {count}"),
-        );
-        return None;
-    };
-    let argument = (*argument)?;
-    let number = argument.number.map(|value| number::call(known, value));
-    if let (Some(number), Some(value)) = (number, argument.number)
-        && !number.is_finite()
-    {
-        resolver.error(formula.extent, number::call_problem(known, value));
-        return None;
-    }
-    Some(Value {
-        id: resolver.dag.call(known, argument.id),
-        number,
-    })
-}
-
-fn is_time(expression: &Expression) -> bool {
-    expression.as_name().is_some_and(|ident| ident == "t")
-}
-
-fn name(resolver: &mut Resolver<'_>, ident: &Ident, scope: Scope) -> Option<Value> {
-    let text = ident.to_string();
-    if text == "pi" {
-        return Some(Value {
-            id: resolver.dag.pi(),
-            number: Some(std::f64::consts::PI),
-        });
-    }
-    if text == "t" {
-        if let Scope::Constant(what) = scope {
-            resolver.error(ident, format!("{what} cannot depend on the time"));
-            return None;
-        }
-        return Some(Value {
-            id: resolver.dag.variable(&Model::time()),
-            number: None,
-        });
-    }
-    let Some(symbol) = resolver.names.get(&text) else {
-        undeclared(resolver, ident);
-        return None;
-    };
-    let (kind, progress) = (symbol.kind, symbol.progress);
-    resolver.names.mark_used(&text);
-    if let Err(message) = may_use(&text, kind, scope) {
-        if resolver.names.is_refused(&text) {
-            return None;
-        }
-        resolver.error(ident, message);
-        return None;
-    }
-    match progress {
-        Progress::Resolved(value) if scope == Scope::All || value.number.is_some() => Some(value),
-        Progress::Resolved(_) => {
-            let Scope::Constant(what) = scope else {
-                return None;
-            };
-            resolver.error(
-                ident,
-                format!("{what} cannot depend on `{text}`, which varies"),
-            );
-            None
-        }
-        Progress::Wrong => None,
-        Progress::Ahead => {
-            let message =
-                format!("`{text}` is used before it is declared; move its declaration up");
-            resolver.error(ident, message);
-            None
-        }
-    }
-}
-
-/// Whether a formula may use a name of this kind at all.
-fn may_use(text: &str, kind: Kind, scope: Scope) -> Result<(), String> {
-    match (kind, scope) {
-        (Kind::Interface, _) => Err(format!(
-            "`{text}` is an interface, not a quantity: name its formula with `let` to use it in both places"
-        )),
-        (Kind::State | Kind::Parameter, Scope::Constant(what)) => {
-            Err(format!("{what} cannot depend on the {kind} `{text}`"))
-        }
-        _ => Ok(()),
-    }
-}
-
-fn undeclared(resolver: &mut Resolver<'_>, ident: &Ident) {
-    const QUANTITIES: &[Kind] = &[Kind::State, Kind::Parameter, Kind::Constant, Kind::Let];
-    let text = ident.to_string();
-    if resolver.names.is_refused(&text) {
-        return;
-    }
-    let message = match text.as_str() {
-        "time" => "the time is `t`".into(),
-        "PI" | "Pi" | "π" => "the number π is `pi`".into(),
-        "e" | "E" => format!("`{text}` is not declared; Euler's number is `exp(1)`"),
-        _ if text.parse::<Function>().is_ok_and(Function::is_declarable) => {
-            format!("`{text}` is a function: write `{text}(x)`")
-        }
-        _ => {
-            if let Some(meaning) = resolver.names.other_meaning(&text) {
-                format!(
-                    "`{text}` is {meaning}, which a formula here cannot use: declare it with `let` at the top level"
-                )
-            } else if let Some(candidate) = resolver.names.closest(&text, QUANTITIES) {
-                // it was meant, so that nothing is to be said of it being unused
-                resolver.names.mark_used(&candidate);
-                format!("`{text}` is not declared; did you mean `{candidate}`?")
-            } else {
-                // once is enough
-                resolver.names.refuse(&text);
-                format!(
-                    "`{text}` is not declared: declare it as a `state`, a `param`, a `const` or a `let`"
-                )
-            }
-        }
-    };
-    resolver.error(ident, message);
 }

@@ -1,70 +1,255 @@
-//! What is said where a function is called that the language does not have.
+//! Functions: `fn V(q) = formula` is checked where it is declared, with arguments of which
+//! nothing is known, and written out where it is called.
+//!
+//! The formula sees the names declared in front of it and its arguments, whatever is around the
+//! call. A call with the same arguments is written out once: a function that calls another one
+//! twice, and so on sixty times, is an exponentially long formula but a short DAG.
 
-use crate::algebra::Function;
-use crate::diagnostics::closest;
+use proc_macro2::Ident;
 
-/// Advice about the unknown function `name`.
-pub(super) fn advice(name: &str) -> String {
-    let instead = match name {
-        "log" => "the natural logarithm is `ln(x)`",
-        "log10" => "write `ln(x)/ln(10)`",
-        "log2" => "write `ln(x)/ln(2)`",
-        "exp2" => "write `2^x`",
-        "pow" | "powi" | "powf" | "power" => "power is written `^`, as in `x^2`",
-        "square" | "sqr" => "power is written `^`, as in `x^2`",
-        "cbrt" => "write `x^(1/3)`",
-        "hypot" => "write `sqrt(x^2 + y^2)`",
-        "arcsin" => "write `asin(x)`",
-        "arccos" => "write `acos(x)`",
-        "arctan" => "write `atan(x)`",
-        "sec" => "write `1/cos(x)`",
-        "csc" => "write `1/sin(x)`",
-        "cot" => "write `1/tan(x)`",
-        "asinh" => "write `ln(x + sqrt(x^2 + 1))`",
-        "acosh" => "write `ln(x + sqrt(x^2 - 1))`",
-        "atanh" => "write `ln((1 + x)/(1 - x))/2`",
-        "der" => "give the derivative's formula a name with `let` and use that",
-        _ if is_not_smooth(name) => {
-            return format!(
-                "`{name}` is not smooth: declare an `interface` where it switches and a `region` on each side"
-            );
+use super::advice::advice;
+use super::names::{Kind, Meaning, is_meant_to_be_unused};
+use super::number::{self, Problem};
+use super::{Resolver, Scope, Value};
+use crate::algebra::{Function, Id, Name};
+use crate::diagnostics::catalogue::check as codes;
+use crate::syntax::{Expression, FunctionItem};
+
+impl<'d> Resolver<'d> {
+    /// `fn name(arguments) = formula`
+    pub(super) fn function(&mut self, item: &'d FunctionItem) {
+        let ident = &item.definition.ident;
+        let before = self.diagnostics.len();
+        self.names.enter_function();
+        for argument in &item.arguments {
+            if let Some((code, message)) = self.names.local_problem(argument, Kind::Argument) {
+                self.report(code, argument, message);
+            }
+            let value = self.unknown();
+            self.names.push_local(argument, Kind::Argument, value);
         }
-        _ => {
-            let known = Function::ALL.iter().filter(|f| f.is_declarable());
-            return match closest(name, known.clone().map(|f| f.name())) {
-                Some(function) => {
-                    format!("there is no function `{name}`; did you mean `{function}`?")
-                }
-                None => {
-                    let known: Vec<&str> = known.map(|f| f.name()).collect();
-                    format!(
-                        "there is no function `{name}`; there are {}",
-                        known.join(", ")
-                    )
-                }
+        self.defining = Some(ident.to_string());
+        let is_right = self.formula(&item.definition.formula, Scope::All).is_some();
+        self.defining = None;
+        let is_right = is_right && self.diagnostics.len() == before;
+        for argument in item.arguments.iter().rev() {
+            let is_used = self.names.pop_local();
+            if is_right && !is_used && !is_meant_to_be_unused(argument) {
+                let message =
+                    format!("the argument `{argument}` of `{ident}` is never used; remove it");
+                self.report(codes::UNUSED, argument, message);
+            }
+        }
+        self.names.leave_function();
+        if self.names.is_first(ident, Kind::Function) {
+            self.functions.insert(ident.to_string(), item);
+            let meaning = match is_right {
+                true => Meaning::Function,
+                false => Meaning::Wrong,
             };
+            self.names.set(ident, meaning);
         }
-    };
-    format!("there is no function `{name}`: {instead}")
+    }
+
+    /// `function(arguments)`
+    pub(super) fn call(
+        &mut self,
+        formula: &'d Expression,
+        function: &'d Ident,
+        arguments: &'d [Expression],
+        scope: Scope,
+    ) -> Option<Value> {
+        let values: Vec<Option<Value>> = arguments
+            .iter()
+            .map(|argument| self.expression(argument, scope))
+            .collect();
+        let text = function.to_string();
+        let built_in = text.parse::<Function>().ok();
+        if let Some(known) = built_in.filter(|f| f.is_declarable()) {
+            return self.built_in(formula, known, &values);
+        }
+        if self.callable(function, &text, arguments)? {
+            self.declared(formula, &text, &values, scope)
+        } else {
+            None
+        }
+    }
+
+    /// `sin(u)` and the like.
+    fn built_in(
+        &mut self,
+        formula: &Expression,
+        function: Function,
+        arguments: &[Option<Value>],
+    ) -> Option<Value> {
+        let [argument] = arguments else {
+            let count = match arguments.len() {
+                0 => "none".to_string(),
+                many => many.to_string(),
+            };
+            let message = format!("`{function}` takes one argument, not {count}");
+            self.report(codes::NUMBER_OF_ARGUMENTS, formula.extent, message);
+            return None;
+        };
+        let argument = (*argument)?;
+        let number = argument.number.map(|value| number::call(function, value));
+        if let (Some(number), Some(value)) = (number, argument.number)
+            && !number.is_finite()
+        {
+            let (code, message) = number::call_problem(function, value);
+            self.report_turn(code, formula.extent, message);
+            return None;
+        }
+        Some(Value {
+            id: self.dag.call(function, argument.id),
+            number,
+        })
+    }
+
+    /// Whether `function` is a declared function that can be called; nothing is returned where
+    /// something was reported.
+    fn callable(&mut self, function: &Ident, text: &str, arguments: &[Expression]) -> Option<bool> {
+        let symbol = self.names.get(text);
+        let (code, message): Problem = match symbol.map(|symbol| (symbol.kind, &symbol.meaning)) {
+            Some((Kind::Function, Meaning::Function)) => {
+                self.names.mark_used(text);
+                return Some(true);
+            }
+            Some((Kind::Function, Meaning::Ahead)) if self.defining.as_deref() == Some(text) => {
+                let message = format!(
+                    "`{text}` is used before it is declared: a function cannot call itself"
+                );
+                (codes::USED_TOO_EARLY, message)
+            }
+            Some((Kind::Function, Meaning::Ahead)) => {
+                let message =
+                    format!("`{text}` is used before it is declared; move its declaration up");
+                (codes::USED_TOO_EARLY, message)
+            }
+            Some((Kind::Function, _)) => {
+                self.names.mark_used(text);
+                return Some(false);
+            }
+            Some((Kind::State, _)) if matches!(arguments, [argument] if is_time(argument)) => {
+                let message = format!("a state is written without its argument: `{text}`");
+                (codes::NOT_A_FUNCTION, message)
+            }
+            Some((kind, Meaning::Elements(_))) => {
+                let message = format!("`{text}` is a group of {kind}s: an element is `{text}[0]`");
+                (codes::NOT_A_FUNCTION, message)
+            }
+            Some((kind, _)) => {
+                let message = format!(
+                    "`{text}` is {}, not a function; a product is written `{text}*(…)`",
+                    kind.article()
+                );
+                (codes::NOT_A_FUNCTION, message)
+            }
+            None if self.names.is_refused(text) => return None,
+            None => {
+                if let Some(meant) = self.names.closest(text, &[Kind::Function]) {
+                    self.names.mark_used(&meant);
+                }
+                advice(text, self.names.functions())
+            }
+        };
+        self.names.mark_used(text);
+        self.report(code, function, message);
+        None
+    }
+
+    /// A call of a function that was declared.
+    fn declared(
+        &mut self,
+        formula: &'d Expression,
+        text: &str,
+        arguments: &[Option<Value>],
+        scope: Scope,
+    ) -> Option<Value> {
+        let item = *self.functions.get(text)?;
+        if arguments.len() != item.arguments.len() {
+            let message = format!(
+                "`{text}` takes {}, as in `{}`, not {}",
+                super::groups::counted(item.arguments.len(), "argument"),
+                self.signature(text),
+                arguments.len()
+            );
+            self.report(codes::NUMBER_OF_ARGUMENTS, formula.extent, message);
+            return None;
+        }
+        let arguments: Vec<Value> = arguments.iter().copied().collect::<Option<_>>()?;
+        let value = self.written_out(formula, item, &arguments)?;
+        if let Scope::Constant(what) = scope
+            && value.number.is_none()
+            && !self.is_unknown(value.id)
+        {
+            let message = format!("{what} cannot depend on `{formula}`, which varies");
+            self.report(codes::NOT_CONSTANT, formula.extent, message);
+            return None;
+        }
+        Some(value)
+    }
+
+    /// The formula of a function with the values of its arguments.
+    fn written_out(
+        &mut self,
+        call: &'d Expression,
+        item: &'d FunctionItem,
+        arguments: &[Value],
+    ) -> Option<Value> {
+        let ids: Vec<Id> = arguments.iter().map(|argument| argument.id).collect();
+        let key = (item.definition.ident.to_string(), ids);
+        if let Some(&known) = self.calls_known.get(&key) {
+            return known;
+        }
+        self.names.enter_function();
+        for (ident, &value) in item.arguments.iter().zip(arguments) {
+            self.names.push_local(ident, Kind::Argument, value);
+        }
+        self.calls.push(call);
+        let value = self.expression(&item.definition.formula, Scope::All);
+        self.calls.pop();
+        self.names.leave_function();
+        self.calls_known.insert(key, value);
+        value
+    }
+
+    /// How a declared function is called: `V(q, k)`.
+    pub(super) fn signature(&self, text: &str) -> String {
+        let arguments = match self.functions.get(text) {
+            Some(item) => {
+                let names: Vec<String> = item.arguments.iter().map(Ident::to_string).collect();
+                names.join(", ")
+            }
+            None => "…".into(),
+        };
+        format!("{text}({arguments})")
+    }
+
+    /// A value of which nothing is known so far: that of an argument in the formula of a
+    /// function, or what depends on it.
+    pub(super) fn unknown(&mut self) -> Value {
+        // no identifier of a declaration has a space
+        let name = Name::new(&format!("unknown {}", self.unknowns.len()));
+        let id = self.dag.variable(&name);
+        self.unknowns.insert(id);
+        Value { id, number: None }
+    }
+
+    /// Whether `id` depends on anything unknown.
+    pub(super) fn is_unknown(&self, id: Id) -> bool {
+        !self.unknowns.is_empty()
+            && (self.unknowns.contains(&id)
+                || (self.dag.reachable([id]).iter()).any(|node| self.unknowns.contains(node)))
+    }
+
+    /// An unknown value if one of `ids` is unknown.
+    pub(super) fn unknown_among(&mut self, ids: &[Id]) -> Option<Value> {
+        let is_unknown = ids.iter().any(|&id| self.is_unknown(id));
+        is_unknown.then(|| self.unknown())
+    }
 }
 
-fn is_not_smooth(name: &str) -> bool {
-    matches!(
-        name,
-        "abs"
-            | "min"
-            | "max"
-            | "sign"
-            | "sgn"
-            | "signum"
-            | "floor"
-            | "ceil"
-            | "round"
-            | "trunc"
-            | "clamp"
-            | "step"
-            | "heaviside"
-            | "atan2"
-            | "mod"
-    )
+fn is_time(expression: &Expression) -> bool {
+    expression.as_name().is_some_and(|ident| ident == "t")
 }

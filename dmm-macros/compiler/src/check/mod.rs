@@ -1,67 +1,83 @@
-//! Declaration → model: every name resolved, every region complete, every formula such that it
-//! can be evaluated.
+//! Declaration → model: every name resolved, every loop and function written out, every region
+//! complete, every formula such that it can be evaluated.
 //!
 //! The stage is [`resolve`]. It checks that
 //!
 //! - names are declared once, in front of their use, and are used;
-//! - constants and defaults depend on constants only;
-//! - ẋ = fᵣ(t, x) is complete: one `der` a state in every region r;
+//! - constants, defaults, numbers of elements and indices depend on constants only;
+//! - elements of groups exist, and groups are used by their elements;
+//! - ẋ = fᵣ(t, x) is complete: in every region r each state has one `der` or is in one canonical
+//!   pair (q, p) of a Hamiltonian, q̇ = ∂H/∂p and ṗ = −∂H/∂q;
 //! - the regions are the sign patterns of the switching functions, each of them once: with one
 //!   interface g = 0 the two regions g > 0 and g < 0, without one the whole space;
 //! - no formula divides by zero, leaves the real numbers, or overflows whatever the state is.
 //!
 //! A formula of which an error was reported yields nothing, and nothing that follows from its
-//! absence is reported.
+//! absence is reported. Loops and functions can make a short declaration arbitrarily long, so
+//! that the nodes that are written out have a limit.
 
+mod advice;
 mod body;
 mod formula;
 mod functions;
+mod groups;
+mod hamiltonian;
+mod kind;
+mod lookup;
+mod loops;
 mod names;
 mod number;
 mod regions;
+mod samples;
+mod targets;
 
 #[cfg(test)]
 mod tests;
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
+
 use proc_macro2::Ident;
 
-use crate::algebra::{Dag, Id, Name};
-use crate::diagnostics::{Diagnostics, Extent};
+use crate::algebra::{Dag, Id};
+use crate::diagnostics::catalogue::check as codes;
+use crate::diagnostics::{Code, Diagnostics, Extent};
 use crate::model::{Interface, Model, Parameter, State};
-use crate::syntax::{Declaration, Definition, Documented, Expression, Item};
-use names::{Kind, Names};
+use crate::syntax::{Declaration, Definition, Expression, FunctionItem, Item};
+use groups::MOST_STATES;
+use names::{Kind, Meaning, Names};
+use samples::Samples;
 
-/// More states than this make derived formulas too long to be of use.
-const MOST_STATES: usize = 32;
+/// The most parts of formulas that are read, each as often as loops and functions repeat it.
+const MOST_WORK: usize = 60_000;
+/// The most nodes of all formulas together.
+const MOST_NODES: usize = 30_000;
 
 /// Resolves `declaration`. The model is there if nothing was added to `diagnostics`.
 pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
     let before = diagnostics.len();
     let source = declaration.to_string();
-    let names = Names::collect(&declaration, diagnostics);
-    let mut resolver = Resolver {
-        dag: Dag::new(),
-        names,
-        diagnostics,
-        states: Vec::new(),
-        parameters: Vec::new(),
-        interfaces: Vec::new(),
-        lacks_region: false,
-    };
+    let mut resolver = Resolver::new(&declaration, diagnostics);
     resolver.top_level(&declaration);
     let regions = resolver.regions(&declaration);
     resolver.unused();
-    if resolver.diagnostics.len() > before {
-        return None;
-    }
-    Some(Model {
+    let Resolver {
+        dag,
+        diagnostics,
+        states,
+        parameters,
+        interfaces,
+        ..
+    } = resolver;
+    let is_right = diagnostics.len() == before;
+    is_right.then(|| Model {
         attributes: declaration.attributes,
         visibility: declaration.visibility,
         name: declaration.name,
-        dag: resolver.dag,
-        states: resolver.states,
-        parameters: resolver.parameters,
-        interfaces: resolver.interfaces.into_iter().flatten().collect(),
+        dag,
+        states,
+        parameters,
+        interfaces: interfaces.into_iter().flatten().collect(),
         regions,
         source,
     })
@@ -73,11 +89,38 @@ struct Resolver<'d> {
     names: Names,
     diagnostics: &'d mut Diagnostics,
     states: Vec<State>,
+    /// By name: the index of the first element, and the number of elements of a group.
+    state_groups: BTreeMap<String, (usize, Option<usize>)>,
     parameters: Vec<Parameter>,
     /// By interface; nothing where its formula is wrong.
     interfaces: Vec<Option<Interface>>,
+    functions: BTreeMap<String, &'d FunctionItem>,
     /// Whether a region is missing, and with it whatever it would use.
     lacks_region: bool,
+
+    /// What regions repeat of what they share, as far as it was reported.
+    repeated: BTreeSet<String>,
+    /// The function whose declaration is read.
+    defining: Option<String>,
+    /// The calls that are being written out, the outermost first.
+    calls: Vec<&'d Expression>,
+    /// By function and arguments: what a call was written out to.
+    calls_known: BTreeMap<(String, Vec<Id>), Option<Value>>,
+    /// Variables that stand for what is not known so far.
+    unknowns: BTreeSet<Id>,
+    samples: Samples,
+    /// By divisor that is not clear from the samples: whether it is zero.
+    divisors: BTreeMap<Id, bool>,
+    /// By node: whether it and all below it was found to be in order.
+    sound: Vec<bool>,
+    /// How deep the part of a formula that is read is nested.
+    depth: usize,
+    /// How much was read.
+    work: usize,
+    /// Whether a loop without turns is read once all the same: what it gives does not count.
+    is_rehearsal: bool,
+    /// Whether what is reported is to be forgotten, because it was reported before.
+    is_quiet: bool,
 }
 
 /// What a formula may depend on.
@@ -98,85 +141,146 @@ struct Value {
     number: Option<f64>,
 }
 
-impl Resolver<'_> {
-    fn error(&mut self, place: impl Into<Extent>, message: impl std::fmt::Display) {
-        self.diagnostics.error(place, message);
+impl<'d> Resolver<'d> {
+    fn new(declaration: &Declaration, diagnostics: &'d mut Diagnostics) -> Self {
+        Self {
+            dag: Dag::new(),
+            names: Names::collect(declaration, diagnostics),
+            diagnostics,
+            states: Vec::new(),
+            state_groups: BTreeMap::new(),
+            parameters: Vec::new(),
+            interfaces: Vec::new(),
+            functions: BTreeMap::new(),
+            lacks_region: false,
+            repeated: BTreeSet::new(),
+            defining: None,
+            calls: Vec::new(),
+            calls_known: BTreeMap::new(),
+            unknowns: BTreeSet::new(),
+            samples: Samples::default(),
+            divisors: BTreeMap::new(),
+            sound: Vec::new(),
+            depth: 0,
+            work: 0,
+            is_rehearsal: false,
+            is_quiet: false,
+        }
+    }
+
+    /// Reports an error; one within the formula of a function where that is called.
+    fn report(&mut self, code: Code, place: impl Into<Extent>, message: impl Display) {
+        if self.is_quiet {
+            return;
+        }
+        match self.calls.first() {
+            Some(call) => {
+                let message = format!("in `{call}`: {message}");
+                self.diagnostics.report(code, call.extent, message);
+            }
+            None => self.diagnostics.report(code, place, message),
+        }
+    }
+
+    /// Reports an error that may depend on the values of the loop variables.
+    fn report_turn(&mut self, code: Code, place: impl Into<Extent>, message: impl Display) {
+        let turn = self.turn(", with");
+        self.report(code, place, format!("{message}{turn}"));
+    }
+
+    /// The values of the loop variables behind `with`: ` with i = 2, j = 0`.
+    fn turn(&self, with: &str) -> String {
+        let counters: Vec<String> = (self.names.counters())
+            .map(|(name, value)| format!("{name} = {value}"))
+            .collect();
+        match counters.as_slice() {
+            [] => String::new(),
+            counters => format!("{with} {}", counters.join(", ")),
+        }
+    }
+
+    /// Does what reports nothing new.
+    fn quietly<T>(&mut self, task: impl FnOnce(&mut Self) -> T) -> T {
+        let was_quiet = std::mem::replace(&mut self.is_quiet, true);
+        let result = task(self);
+        self.is_quiet = was_quiet;
+        result
+    }
+
+    /// Counts what was read; nothing is read any more once it is too much.
+    fn spend(&mut self, work: usize, place: &Expression) -> Option<()> {
+        if self.is_exhausted() {
+            return None;
+        }
+        self.work = self.work.saturating_add(work);
+        if self.is_exhausted() {
+            self.too_long(
+                place,
+                "written out, its loops and functions have too many parts",
+            );
+            return None;
+        }
+        Some(())
+    }
+
+    fn is_exhausted(&self) -> bool {
+        self.work > MOST_WORK || self.dag.len() > MOST_NODES
+    }
+
+    /// Reports that the declaration is too long, and reads no more of it.
+    fn too_long(&mut self, place: &Expression, reason: &str) {
+        self.work = usize::MAX;
+        let message = format!(
+            "this declaration is too long: {reason}{}",
+            self.turn(", with")
+        );
+        self.report(codes::TOO_LONG, place.extent, message);
     }
 
     /// Everything outside of the regions, in the order of the source.
-    fn top_level(&mut self, declaration: &Declaration) {
+    fn top_level(&mut self, declaration: &'d Declaration) {
         for item in &declaration.items {
             match item {
-                Item::State(states) => states.iter().for_each(|state| self.state(state)),
+                Item::State(groups) => groups.iter().for_each(|group| self.state(group)),
                 Item::Parameter(parameter) => self.parameter(parameter),
                 Item::Constant(constant) => {
                     self.define(constant, Kind::Constant, Scope::Constant("a constant"));
                 }
                 Item::Let(definition) => self.define(definition, Kind::Let, Scope::All),
+                Item::Function(function) => self.function(function),
                 Item::Interface(interface) => self.interface(interface),
-                Item::Region(_) | Item::Derivative(_) | Item::Conserved(_) => {}
+                Item::Region(_)
+                | Item::Derivative(_)
+                | Item::Conserved(_)
+                | Item::Hamiltonian(_)
+                | Item::For(_) => {}
             }
         }
         if self.states.is_empty() && !self.names.any_refused() {
-            self.error(
+            self.report(
+                codes::NO_STATE,
                 &declaration.name,
                 "a system has at least one state: declare `state x;`",
             );
         } else if self.states.len() > MOST_STATES {
-            self.error(
-                &declaration.name,
-                format!(
-                    "{} states are too many: up to {MOST_STATES} are supported",
-                    self.states.len()
-                ),
+            let message = format!(
+                "{} states are too many: up to {MOST_STATES} are supported",
+                self.states.len()
             );
-        }
-    }
-
-    fn state(&mut self, state: &Documented) {
-        if self.names.is_first(&state.ident, Kind::State) {
-            let name = Name::new(&state.ident.to_string());
-            let id = self.dag.variable(&name);
-            self.names.set(&state.ident, Value { id, number: None });
-            self.states.push(State {
-                attributes: state.attributes.clone(),
-                ident: state.ident.clone(),
-                name,
-            });
-        }
-    }
-
-    fn parameter(&mut self, parameter: &Definition) {
-        let scope = Scope::Constant("the default of a parameter");
-        let default = self.formula(&parameter.formula, scope);
-        if !self.names.is_first(&parameter.ident, Kind::Parameter) {
-            return;
-        }
-        let name = Name::new(&parameter.ident.to_string());
-        let id = self.dag.variable(&name);
-        self.names.set(&parameter.ident, Value { id, number: None });
-        if let Some(default) = default {
-            self.parameters.push(Parameter {
-                attributes: parameter.attributes.clone(),
-                ident: parameter.ident.clone(),
-                name,
-                default: default.id,
-            });
+            self.report(codes::TOO_MANY_STATES, &declaration.name, message);
         }
     }
 
     /// `const` and `let`: from here on, the name stands for the formula.
-    fn define(&mut self, definition: &Definition, kind: Kind, scope: Scope) {
+    fn define(&mut self, definition: &'d Definition, kind: Kind, scope: Scope) {
         let value = self.formula(&definition.formula, scope);
         if self.names.is_first(&definition.ident, kind) {
-            match value {
-                Some(value) => self.names.set(&definition.ident, value),
-                None => self.names.set_wrong(&definition.ident),
-            }
+            let meaning = value.map_or(Meaning::Wrong, Meaning::Value);
+            self.names.set(&definition.ident, meaning);
         }
     }
 
-    fn interface(&mut self, interface: &Definition) {
+    fn interface(&mut self, interface: &'d Definition) {
         let value = self.formula(&interface.formula, Scope::All);
         if !self.names.is_first(&interface.ident, Kind::Interface) {
             return;
@@ -186,15 +290,16 @@ impl Resolver<'_> {
                 "several interfaces are not supported yet: `{}` is the second of this system",
                 interface.ident
             );
-            self.error(&interface.ident, message);
+            self.report(codes::SEVERAL_INTERFACES, &interface.ident, message);
         }
         let resolved = value.and_then(|value| self.switching(interface, value.id));
         self.interfaces.push(resolved);
     }
 
     fn switching(&mut self, interface: &Definition, g: Id) -> Option<Interface> {
-        let varies = self.dag.depends_on(g, &Model::time())
-            || (self.states.iter()).any(|state| self.dag.depends_on(g, &state.name))
+        let depends_on = self.dag.variables([g]);
+        let varies = depends_on.contains(&Model::time())
+            || (self.states.iter()).any(|state| depends_on.contains(&state.name))
             // an undeclared state has been reported where it is used
             || self.states.is_empty();
         if !varies {
@@ -202,7 +307,7 @@ impl Resolver<'_> {
                 "the interface `{}` depends neither on a state nor on `t`, so nothing can cross it",
                 interface.ident
             );
-            self.error(interface.formula.extent, message);
+            self.report(codes::INTERFACE_CONSTANT, interface.formula.extent, message);
             return None;
         }
         Some(Interface {
@@ -215,21 +320,16 @@ impl Resolver<'_> {
 
     /// What was declared and never used, as far as everything that could use it is there.
     fn unused(&mut self) {
-        if self.lacks_region {
-            return;
+        if !self.lacks_region && !self.is_exhausted() {
+            let unused = self.names.unused();
+            self.report_unused(unused);
         }
-        for (kind, ident) in self.names.unused() {
+    }
+
+    fn report_unused(&mut self, unused: Vec<(Kind, Ident)>) {
+        for (kind, ident) in unused {
             let message = format!("the {kind} `{ident}` is never used; remove it");
-            self.error(&ident, message);
+            self.report(codes::UNUSED, &ident, message);
         }
-    }
-
-    fn formula(&mut self, formula: &Expression, scope: Scope) -> Option<Value> {
-        formula::resolve(self, formula, scope)
-    }
-
-    /// The index of the state called `ident`.
-    fn state_index(&self, ident: &Ident) -> Option<usize> {
-        self.states.iter().position(|state| state.ident == *ident)
     }
 }

@@ -1,51 +1,34 @@
 //! The names of a declaration: what each is, where it was declared, whether it is used.
+//!
+//! A formula sees, from the inside outwards, the loop variables around it, the `let`s of its
+//! region, and the names of the system. The formula of a `fn` sees its arguments instead of the
+//! loop variables and the region at its call.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::{self, Display, Formatter};
+use std::rc::Rc;
 
 use proc_macro2::Ident;
 
 use super::Value;
+pub(super) use super::kind::Kind;
 use crate::algebra::Function;
-use crate::diagnostics::{Diagnostics, closest};
+use crate::diagnostics::catalogue::check as codes;
+use crate::diagnostics::{Code, Diagnostics, closest};
 use crate::syntax::{Declaration, Item};
 
-/// What a name stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// A state.
-    State,
-    /// A parameter.
-    Parameter,
-    /// A `const`.
-    Constant,
-    /// A `let`.
-    Let,
-    /// An interface.
-    Interface,
-}
-
-impl Display for Kind {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::State => "state",
-            Self::Parameter => "parameter",
-            Self::Constant => "constant",
-            Self::Let => "`let`",
-            Self::Interface => "interface",
-        })
-    }
-}
-
-/// How far a name is.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Progress {
-    /// Declared further down.
+/// What is known of a name so far.
+#[derive(Debug, Clone)]
+pub(super) enum Meaning {
+    /// It is declared further down.
     Ahead,
     /// Its definition is wrong, which has been reported.
     Wrong,
-    /// Resolved.
-    Resolved(Value),
+    /// It has a value.
+    Value(Value),
+    /// It is a group with these elements.
+    Elements(Rc<[Value]>),
+    /// It is a function with a correct formula.
+    Function,
 }
 
 /// A declared name.
@@ -55,18 +38,24 @@ pub(super) struct Symbol {
     pub(super) kind: Kind,
     /// Where it was declared.
     pub(super) ident: Ident,
-    /// How far it is.
-    pub(super) progress: Progress,
-    used: bool,
+    /// What is known of it.
+    pub(super) meaning: Meaning,
+    /// Whether a formula uses it.
+    pub(super) used: bool,
     /// Its place in the order of declaration.
     order: usize,
 }
 
-/// The names that formulas may use: those of the system, and the `let`s of the region at hand.
+/// The names that formulas may use.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     system: BTreeMap<String, Symbol>,
+    /// The `let`s of the region at hand.
     region: BTreeMap<String, Symbol>,
+    /// Loop variables and arguments, the innermost last.
+    local: Vec<(String, Symbol)>,
+    /// Where the arguments of each function begin that is being written out.
+    frames: Vec<usize>,
     /// Names with another meaning, of which a formula cannot use the name: what they are.
     others: BTreeMap<String, String>,
     /// Names of which a declaration was refused.
@@ -84,30 +73,38 @@ impl Names {
                         names.declare(&state.ident, Kind::State, diagnostics);
                     }
                 }
-                Item::Parameter(item) => names.declare(&item.ident, Kind::Parameter, diagnostics),
+                Item::Parameter(item) => {
+                    names.declare(&item.group.ident, Kind::Parameter, diagnostics)
+                }
                 Item::Constant(item) => names.declare(&item.ident, Kind::Constant, diagnostics),
                 Item::Let(item) => names.declare(&item.ident, Kind::Let, diagnostics),
                 Item::Interface(item) => names.declare(&item.ident, Kind::Interface, diagnostics),
-                Item::Conserved(item) => names.note(&item.ident, "a conserved quantity"),
+                Item::Function(item) => {
+                    names.declare(&item.definition.ident, Kind::Function, diagnostics)
+                }
                 Item::Region(region) => {
                     names.note(&region.ident, "a region");
-                    for item in &region.items {
-                        match item {
-                            Item::Conserved(item) => {
-                                names.note(&item.ident, "a conserved quantity")
-                            }
-                            Item::Let(item) => {
-                                let what = format!("a `let` of the region `{}`", region.ident);
-                                names.note(&item.ident, &what);
-                            }
-                            _ => {}
-                        }
-                    }
+                    names.note_all(&region.items, &format!(" of the region `{}`", region.ident));
                 }
-                Item::Derivative(_) => {}
+                other => names.note_all(std::slice::from_ref(other), ""),
             }
         }
         names
+    }
+
+    /// Takes note of names that other formulas cannot use.
+    fn note_all(&mut self, items: &[Item], place: &str) {
+        for item in items {
+            match item {
+                Item::Conserved(item) => self.note(&item.definition.ident, "a conserved quantity"),
+                Item::Hamiltonian(item) => {
+                    self.note(&item.definition.ident, "the energy of a `hamiltonian`")
+                }
+                Item::Let(item) => self.note(&item.ident, &format!("a `let`{place}")),
+                Item::For(item) => self.note_all(&item.items, place),
+                _ => {}
+            }
+        }
     }
 
     fn note(&mut self, ident: &Ident, what: &str) {
@@ -135,28 +132,102 @@ impl Names {
         kind: Kind,
         diagnostics: &mut Diagnostics,
     ) -> Option<Symbol> {
-        if let Some(meaning) = reserved(&ident.to_string()) {
-            let message = format!("`{ident}` is {meaning} and cannot be declared as a {kind}");
-            diagnostics.error(ident, message);
-            self.refused.insert(ident.to_string());
-            return None;
-        }
-        if let Some(earlier) = self.get(&ident.to_string()) {
-            let message = if earlier.kind == kind {
-                format!("the {kind} `{ident}` is declared twice")
-            } else {
-                format!("`{ident}` is already declared as a {}", earlier.kind)
-            };
-            diagnostics.error(ident, message.replace("as a interface", "as an interface"));
-            self.refused.insert(ident.to_string());
+        let text = ident.to_string();
+        let problem = match (reserved(&text), self.get(&text)) {
+            (Some(meaning), _) => Some((
+                codes::RESERVED,
+                format!(
+                    "`{text}` is {meaning} and cannot be declared as {}",
+                    kind.article()
+                ),
+            )),
+            (None, Some(earlier)) if earlier.kind == kind => Some((
+                codes::DECLARED_TWICE,
+                format!("the {kind} `{text}` is declared twice"),
+            )),
+            (None, Some(earlier)) if kind == Kind::Interface => Some((
+                codes::DECLARED_TWICE,
+                format!(
+                    "`{text}` is already declared as {}: an interface has a name of its own, as in `interface wall = {text};`",
+                    earlier.kind.article()
+                ),
+            )),
+            (None, Some(earlier)) => Some((
+                codes::DECLARED_TWICE,
+                format!("`{text}` is already declared as {}", earlier.kind.article()),
+            )),
+            (None, None) => None,
+        };
+        if let Some((code, message)) = problem {
+            diagnostics.report(code, ident, message);
+            self.refused.insert(text);
             return None;
         }
         Some(Symbol {
             kind,
             ident: ident.clone(),
-            progress: Progress::Ahead,
+            meaning: Meaning::Ahead,
             used: false,
             order: self.system.len() + self.region.len(),
+        })
+    }
+
+    /// Why a loop variable or an argument cannot have this name.
+    pub(super) fn local_problem(&self, ident: &Ident, kind: Kind) -> Option<(Code, String)> {
+        let text = ident.to_string();
+        if let Some(meaning) = reserved(&text) {
+            let message = format!("`{text}` is {meaning} and cannot be {}", kind.article());
+            return Some((codes::RESERVED, message));
+        }
+        let earlier = self.get(&text)?;
+        let message = if earlier.kind == kind {
+            format!("the {kind} `{text}` is there already; choose another name")
+        } else {
+            format!(
+                "the {kind} `{text}` has the name of {}; choose another name",
+                earlier.kind.article()
+            )
+        };
+        Some((codes::SHADOWED, message))
+    }
+
+    /// From here on, `ident` is a loop variable or an argument.
+    pub(super) fn push_local(&mut self, ident: &Ident, kind: Kind, value: Value) {
+        let symbol = Symbol {
+            kind,
+            ident: ident.clone(),
+            meaning: Meaning::Value(value),
+            used: false,
+            order: 0,
+        };
+        self.local.push((ident.to_string(), symbol));
+    }
+
+    /// Leaves the scope of the last loop variable or argument; whether it was used.
+    pub(super) fn pop_local(&mut self) -> bool {
+        self.local.pop().is_some_and(|(_, symbol)| symbol.used)
+    }
+
+    /// From here on, formulas are those of a function.
+    pub(super) fn enter_function(&mut self) {
+        self.frames.push(self.local.len());
+    }
+
+    /// Back to where the function was called.
+    pub(super) fn leave_function(&mut self) {
+        if let Some(first) = self.frames.pop() {
+            self.local.truncate(first);
+        }
+    }
+
+    /// The loop variables with their values, the outermost first.
+    pub(super) fn counters(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.local.iter().filter_map(|(name, symbol)| {
+            let value = match &symbol.meaning {
+                Meaning::Value(value) if symbol.kind == Kind::Counter => value.number?,
+                _ => return None,
+            };
+            Some((name.as_str(), value))
         })
     }
 
@@ -180,16 +251,30 @@ impl Names {
         unused(&std::mem::take(&mut self.region))
     }
 
+    fn visible_locals(&self) -> usize {
+        self.frames.last().copied().unwrap_or(0)
+    }
+
     /// What `name` stands for.
     pub(super) fn get(&self, name: &str) -> Option<&Symbol> {
-        self.region.get(name).or_else(|| self.system.get(name))
+        let locals = self.local.get(self.visible_locals()..).unwrap_or_default();
+        if let Some((_, symbol)) = locals.iter().rev().find(|(local, _)| local == name) {
+            return Some(symbol);
+        }
+        let region = self.frames.is_empty().then(|| self.region.get(name));
+        region.flatten().or_else(|| self.system.get(name))
     }
 
     fn get_mut(&mut self, name: &str) -> Option<&mut Symbol> {
-        match self.region.get_mut(name) {
-            Some(symbol) => Some(symbol),
-            None => self.system.get_mut(name),
+        let first = self.visible_locals();
+        let locals = self.local.get_mut(first..).unwrap_or_default();
+        if let Some((_, symbol)) = locals.iter_mut().rev().find(|(local, _)| local == name) {
+            return Some(symbol);
         }
+        if self.frames.is_empty() && self.region.contains_key(name) {
+            return self.region.get_mut(name);
+        }
+        self.system.get_mut(name)
     }
 
     /// What a name is that is no quantity: a region, a conserved quantity, …
@@ -201,20 +286,13 @@ impl Names {
     /// reserved, or declared as something else or as the same thing before.
     pub(super) fn is_first(&self, ident: &Ident, kind: Kind) -> bool {
         self.get(&ident.to_string())
-            .is_some_and(|symbol| symbol.kind == kind && matches!(symbol.progress, Progress::Ahead))
+            .is_some_and(|symbol| symbol.kind == kind && matches!(symbol.meaning, Meaning::Ahead))
     }
 
-    /// From here on, `ident` has a value.
-    pub(super) fn set(&mut self, ident: &Ident, value: Value) {
+    /// From here on, `ident` has a meaning.
+    pub(super) fn set(&mut self, ident: &Ident, meaning: Meaning) {
         if let Some(symbol) = self.get_mut(&ident.to_string()) {
-            symbol.progress = Progress::Resolved(value);
-        }
-    }
-
-    /// From here on, `ident` is known to be wrong.
-    pub(super) fn set_wrong(&mut self, ident: &Ident) {
-        if let Some(symbol) = self.get_mut(&ident.to_string()) {
-            symbol.progress = Progress::Wrong;
+            symbol.meaning = meaning;
         }
     }
 
@@ -227,11 +305,21 @@ impl Names {
 
     /// The declared name among those of the `kinds` that `name` was probably meant to be.
     pub(super) fn closest(&self, name: &str, kinds: &[Kind]) -> Option<String> {
-        let symbols = self.region.iter().chain(&self.system);
+        let locals = self.local.get(self.visible_locals()..).unwrap_or_default();
+        let locals = locals.iter().map(|(name, symbol)| (name, symbol));
+        let symbols = locals.chain(&self.region).chain(&self.system);
         let candidates = symbols
             .filter(|(_, symbol)| kinds.contains(&symbol.kind))
             .map(|(candidate, _)| candidate.as_str());
         closest(name, candidates).map(str::to_owned)
+    }
+
+    /// The declared functions.
+    pub(super) fn functions(&self) -> impl Iterator<Item = &str> {
+        let symbols = self.system.iter();
+        symbols
+            .filter(|(_, symbol)| symbol.kind == Kind::Function)
+            .map(|(name, _)| name.as_str())
     }
 
     /// What the top level declares and nothing uses, in the order of declaration.
@@ -244,9 +332,8 @@ fn unused(symbols: &BTreeMap<String, Symbol>) -> Vec<(Kind, Ident)> {
     let mut unused: Vec<&Symbol> = symbols
         .values()
         .filter(|symbol| {
-            let counts = matches!(symbol.kind, Kind::Parameter | Kind::Constant | Kind::Let);
-            // a leading underscore says that it is meant to be unused, as in Rust
-            counts && !symbol.used && !symbol.ident.to_string().starts_with('_')
+            let counts = !matches!(symbol.kind, Kind::State | Kind::Interface);
+            counts && !symbol.used && !is_meant_to_be_unused(&symbol.ident)
         })
         .collect();
     unused.sort_by_key(|symbol| symbol.order);
@@ -256,12 +343,22 @@ fn unused(symbols: &BTreeMap<String, Symbol>) -> Vec<(Kind, Ident)> {
         .collect()
 }
 
+/// A leading underscore says so, as in Rust.
+pub(super) fn is_meant_to_be_unused(ident: &Ident) -> bool {
+    ident.to_string().starts_with('_')
+}
+
 /// What the language itself means by `name`.
 fn reserved(name: &str) -> Option<&'static str> {
     match name {
         "t" => Some("the time"),
         "pi" => Some("the number π"),
-        _ if name.parse::<Function>().is_ok_and(Function::is_declarable) => Some("a function"),
+        _ if is_built_in(name) => Some("a built-in function"),
         _ => None,
     }
+}
+
+/// Whether `name` is a built-in function.
+pub(super) fn is_built_in(name: &str) -> bool {
+    name.parse::<Function>().is_ok_and(Function::is_declarable)
 }

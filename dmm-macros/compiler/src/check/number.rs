@@ -3,11 +3,19 @@
 use num_traits::{ToPrimitive, Zero};
 
 use super::Value;
-use crate::algebra::{Dag, Function, Id, Rational};
+use crate::algebra::{Dag, Function, Id, Math, Rational};
+use crate::diagnostics::Code;
+use crate::diagnostics::catalogue::check as codes;
 use crate::syntax::Operator;
 
 /// The largest exponent of a varying base that the derived formulas are written out for.
-pub(super) const LARGEST_EXPONENT: i64 = 100;
+const LARGEST_EXPONENT: i64 = 100;
+/// The most bits of numerator and denominator together that an exact constant may have: more
+/// than any sum of two doubles needs.
+const MOST_BITS: u64 = 6_000;
+
+/// A kind of mistake, and what is wrong.
+pub(super) type Problem = (Code, String);
 
 /// The double nearest to an exact constant.
 pub(super) fn double(value: &Rational) -> f64 {
@@ -22,6 +30,7 @@ pub(super) fn operation(operator: Operator, left: f64, right: f64) -> f64 {
         Operator::Multiply => left * right,
         Operator::Divide => left / right,
         Operator::Power => left.powf(right),
+        Operator::Remainder => left.rem_euclid(right),
     }
 }
 
@@ -48,25 +57,40 @@ pub(super) fn call(function: Function, argument: f64) -> f64 {
 }
 
 /// Why `function` has no value at `argument`.
-pub(super) fn call_problem(function: Function, argument: f64) -> String {
-    let domain = match function {
-        Function::Sqrt => "its argument must not be negative",
-        Function::Ln => "its argument must be positive",
-        Function::Asin | Function::Acos => "its argument must be in [-1, 1]",
-        _ => "its value is beyond the range of floating-point numbers",
+pub(super) fn call_problem(function: Function, argument: f64) -> Problem {
+    let (code, domain) = match function {
+        Function::Sqrt => (codes::OUTSIDE_DOMAIN, "its argument must not be negative"),
+        Function::Ln => (codes::OUTSIDE_DOMAIN, "its argument must be positive"),
+        Function::Asin | Function::Acos => {
+            (codes::OUTSIDE_DOMAIN, "its argument must be in [-1, 1]")
+        }
+        _ => (
+            codes::OUT_OF_RANGE,
+            "its value is beyond the range of floating-point numbers",
+        ),
     };
-    format!("`{function}` of {argument} cannot be evaluated: {domain}")
+    let message = format!("`{function}` of {argument} cannot be evaluated: {domain}");
+    (code, message)
 }
 
 /// Why `left operator right` has no value, of which both are numbers.
-pub(super) fn operation_problem(operator: Operator, left: f64, right: f64) -> String {
-    let reason = match operator {
-        Operator::Divide if right == 0.0 => return "division by zero".into(),
-        Operator::Power if left == 0.0 => return "zero to a negative power divides by zero".into(),
-        Operator::Power if left < 0.0 && right.fract() != 0.0 => {
-            "a negative number has no real power with a fractional exponent"
+pub(super) fn operation_problem(operator: Operator, left: f64, right: f64) -> Problem {
+    let (code, reason) = match operator {
+        Operator::Divide if right == 0.0 => {
+            return (codes::DIVISION_BY_ZERO, "division by zero".into());
         }
-        _ => "it is beyond the range of floating-point numbers",
+        Operator::Power if left == 0.0 => {
+            let message = "zero to a negative power divides by zero".into();
+            return (codes::DIVISION_BY_ZERO, message);
+        }
+        Operator::Power if left < 0.0 && right.fract() != 0.0 => (
+            codes::OUTSIDE_DOMAIN,
+            "a negative number has no real power with a fractional exponent",
+        ),
+        _ => (
+            codes::OUT_OF_RANGE,
+            "it is beyond the range of floating-point numbers",
+        ),
     };
     let [left, right] = [left, right].map(|number| {
         if number < 0.0 {
@@ -79,35 +103,82 @@ pub(super) fn operation_problem(operator: Operator, left: f64, right: f64) -> St
         Operator::Power => format!("{left}^{right}"),
         _ => format!("{left} {} {right}", operator.symbol()),
     };
-    format!("{formula} cannot be evaluated: {reason}")
+    (code, format!("{formula} cannot be evaluated: {reason}"))
 }
 
 /// Why the power with this varying base or exponent cannot be evaluated or derived from.
-pub(super) fn power_problem(dag: &Dag, base: Value, exponent: Value) -> Option<String> {
+pub(super) fn power_problem(dag: &Dag, base: Value, exponent: Value) -> Option<Problem> {
     match (base.number, exponent.number) {
-        (Some(number), None) if number <= 0.0 => Some(format!(
-            "a varying power of {number} cannot be evaluated: the base must be positive"
-        )),
-        (None, Some(_)) => {
-            let exact = dag.as_constant(exponent.id)?;
-            let is_large = exact.is_integer()
-                && dag
-                    .as_integer(exponent.id)
-                    .is_none_or(|n| n.abs() > LARGEST_EXPONENT);
-            is_large.then(|| {
-                format!("integer powers are supported up to the exponent {LARGEST_EXPONENT}")
-            })
+        (Some(number), None) if number <= 0.0 => {
+            let message = format!(
+                "a varying power of {number} cannot be evaluated: the base must be positive"
+            );
+            Some((codes::OUTSIDE_DOMAIN, message))
         }
+        (None, Some(_)) => is_large_exponent(dag, exponent.id).then(large_exponent),
         _ => None,
     }
 }
 
-/// An exact constant below `root` that has no double.
-pub(super) fn has_unrepresentable_constant(dag: &Dag, root: Id) -> bool {
-    dag.reachable([root]).into_iter().any(|id| {
-        dag.as_constant(id).is_some_and(|value| {
-            let double = double(value);
-            !double.is_finite() || (double == 0.0 && !value.is_zero())
-        })
+fn is_large_exponent(dag: &Dag, exponent: Id) -> bool {
+    dag.as_constant(exponent).is_some_and(Rational::is_integer)
+        && dag
+            .as_integer(exponent)
+            .is_none_or(|n| n.unsigned_abs() > LARGEST_EXPONENT.unsigned_abs())
+}
+
+fn large_exponent() -> Problem {
+    let message = format!("integer powers are supported up to the exponent {LARGEST_EXPONENT}");
+    (codes::LARGE_EXPONENT, message)
+}
+
+/// The size of an exact constant in bits; 0 of anything else.
+fn bits(dag: &Dag, id: Id) -> u64 {
+    dag.as_constant(id)
+        .map_or(0, |value| value.numer().bits() + value.denom().bits())
+}
+
+/// Why the exact value of a sum, product or quotient cannot be kept.
+pub(super) fn size_problem(dag: &Dag, left: Value, right: Value) -> Option<Problem> {
+    let (left, right) = (bits(dag, left.id), bits(dag, right.id));
+    (left > 0 && right > 0 && left + right > MOST_BITS).then(|| {
+        let message = "the exact value of this constant has too many digits";
+        (codes::OUT_OF_RANGE, message.into())
     })
+}
+
+/// Whether the exact value of a power would have too many digits.
+pub(super) fn is_long_power(dag: &Dag, base: Value, exponent: Value) -> bool {
+    dag.as_integer(exponent.id)
+        .is_some_and(|n| bits(dag, base.id).saturating_mul(n.unsigned_abs()) > MOST_BITS)
+}
+
+/// What exact arithmetic with these operands costs, in nodes: a greatest common divisor takes
+/// the square of their bits.
+pub(super) fn work(dag: &Dag, left: Value, right: Value) -> usize {
+    let (left, right) = (bits(dag, left.id), bits(dag, right.id));
+    if left == 0 || right == 0 {
+        return 0;
+    }
+    let square = left.max(right).saturating_pow(2);
+    usize::try_from(square / 1_500).unwrap_or(usize::MAX)
+}
+
+/// What is wrong with a node of a formula whatever it is a part of: an exact constant that has
+/// no double, or an exponent that came to be too large by products of powers.
+pub(super) fn node_problem(dag: &Dag, id: Id) -> Option<Problem> {
+    match &dag[id] {
+        Math::Constant(value) => {
+            let double = double(value);
+            let is_lost = !double.is_finite() || (double == 0.0 && !value.is_zero());
+            let message =
+                "a constant of this formula is beyond the range of floating-point numbers";
+            is_lost.then(|| (codes::OUT_OF_RANGE, message.into()))
+        }
+        Math::Pow([base, exponent]) => {
+            let varies = dag.as_constant(*base).is_none();
+            (varies && is_large_exponent(dag, *exponent)).then(large_exponent)
+        }
+        _ => None,
+    }
 }

@@ -3,19 +3,23 @@
 use std::collections::BTreeMap;
 
 use proc_macro2::Ident;
+use syn::Attribute;
 
 use super::Resolver;
+use super::body::Body;
 use super::names::Kind;
-use crate::diagnostics::Diagnostics;
-use crate::model::{Interface, Region, Side, Sign};
+use crate::algebra::Id;
+use crate::diagnostics::Extent;
+use crate::diagnostics::catalogue::check as codes;
+use crate::model::{Independence, Interface, Region, Side, Sign};
 use crate::syntax::{Condition, Declaration, Item, RegionItem, Relation};
 
 /// The region of a system without interface.
 const EVERYWHERE: &str = "everywhere";
 
-impl Resolver<'_> {
+impl<'d> Resolver<'d> {
     /// The regions of the model.
-    pub(super) fn regions(&mut self, declaration: &Declaration) -> Vec<Region> {
+    pub(super) fn regions(&mut self, declaration: &'d Declaration) -> Vec<Region> {
         let items: Vec<&RegionItem> = declaration
             .items
             .iter()
@@ -25,108 +29,154 @@ impl Resolver<'_> {
             })
             .collect();
         self.region_names(&items);
-        let regions: Vec<Region> = items.iter().filter_map(|item| self.region(item)).collect();
-        let everywhere = self.outside_of_regions(declaration, !items.is_empty());
+        let shared = self.shared(declaration);
+        let read: Vec<(Option<Vec<Side>>, Body)> = items
+            .iter()
+            .map(|item| (self.sides(item), self.region(item, &shared)))
+            .collect();
         if self.interfaces.len() == 1 {
             self.both_sides(declaration, &items);
         }
-        everywhere.map_or(regions, |region| vec![region])
+        if items.is_empty() {
+            return self.everywhere(declaration, shared).into_iter().collect();
+        }
+        let reported = self.missing_everywhere(&declaration.name, &read);
+        let mut regions = Vec::new();
+        for (item, (sides, body)) in items.iter().zip(read) {
+            let field = self.complete(&body, &item.ident, &reported);
+            if let (Some(sides), Some(field)) = (sides, field) {
+                let attributes = item.attributes.clone();
+                regions.push(finished(attributes, &item.ident, sides, field, body));
+            }
+        }
+        regions
     }
 
-    /// What stands outside of regions: the region of a smooth system.
-    fn outside_of_regions(
-        &mut self,
-        declaration: &Declaration,
-        has_regions: bool,
-    ) -> Option<Region> {
-        let items: Vec<&Item> = declaration
-            .items
-            .iter()
-            .filter(|item| matches!(item, Item::Derivative(_) | Item::Conserved(_)))
-            .collect();
-        if has_regions {
-            self.misplaced(&items);
-            // names count as used, but the place is all that is wrong
-            let mut unseen = Diagnostics::new();
-            std::mem::swap(self.diagnostics, &mut unseen);
-            self.body(&items, None);
-            std::mem::swap(self.diagnostics, &mut unseen);
-            return None;
+    /// What stands outside of regions: it holds in every one of them.
+    fn shared(&mut self, declaration: &'d Declaration) -> Body {
+        let mut body = Body::new(self.states.len());
+        for item in &declaration.items {
+            match item {
+                Item::Derivative(_) | Item::Conserved(_) | Item::Hamiltonian(_) | Item::For(_) => {
+                    self.item(item, &mut body)
+                }
+                _ => {}
+            }
         }
-        let body = self.body(&items, None);
+        body
+    }
+
+    /// The only region of a smooth system.
+    fn everywhere(&mut self, declaration: &Declaration, body: Body) -> Option<Region> {
         if !self.interfaces.is_empty() {
             return None;
         }
         let ident = Ident::new(EVERYWHERE, declaration.name.span());
-        let (field, field_spans) = self.complete(body.field, &declaration.name, None)?;
-        Some(Region {
-            attributes: Vec::new(),
-            ident,
-            sides: Vec::new(),
-            field,
-            field_spans,
-            conserved: body.conserved,
-        })
+        let field = self.complete(&body, &declaration.name, &[])?;
+        Some(finished(Vec::new(), &ident, Vec::new(), field, body))
     }
 
-    /// `der` and `conserved` at the top level of a system with regions.
-    fn misplaced(&mut self, items: &[&Item]) {
-        for item in items {
-            match item {
-                Item::Derivative(item) => self.error(
-                    &item.state,
-                    format!(
-                        "in a system with regions, `der({})` belongs into each region",
-                        item.state
-                    ),
-                ),
-                Item::Conserved(item) => self.error(
-                    &item.ident,
-                    format!(
-                        "in a system with regions, `conserved {}` belongs into the regions that conserve it",
-                        item.ident
-                    ),
-                ),
-                _ => {}
-            }
-        }
-    }
-
-    fn region(&mut self, item: &RegionItem) -> Option<Region> {
-        let sides = self.sides(item);
+    fn region(&mut self, item: &'d RegionItem, shared: &Body) -> Body {
+        let mut body = shared.in_region(&item.ident);
         let items: Vec<&Item> = item.items.iter().collect();
-        let body = self.body(&items, Some(&item.ident));
-        let field = self.complete(body.field, &item.ident, Some(&item.ident));
-        for (kind, ident) in self.names.leave_region() {
-            self.error(
-                &ident,
-                format!("the {kind} `{ident}` is never used; remove it"),
-            );
+        self.items(&items, &mut body);
+        let unused = self.names.leave_region();
+        if !self.is_exhausted() {
+            self.report_unused(unused);
         }
-        let (field, field_spans) = field?;
-        Some(Region {
-            attributes: item.attributes.clone(),
-            ident: item.ident.clone(),
-            sides: sides?,
-            field,
-            field_spans,
-            conserved: body.conserved,
-        })
+        body
+    }
+
+    /// Reports the states that have no rate in any of several regions; which they are.
+    fn missing_everywhere(
+        &mut self,
+        place: &Ident,
+        read: &[(Option<Vec<Side>>, Body)],
+    ) -> Vec<usize> {
+        let is_missing = |state: usize| {
+            let mut fields = read.iter().map(|(_, body)| &body.field);
+            fields.all(|field| matches!(field.get(state), Some(None)))
+        };
+        let missing: Vec<usize> = (0..self.states.len())
+            .filter(|&state| read.len() > 1 && is_missing(state))
+            .collect();
+        let has_unknown_state = read.iter().any(|(_, body)| body.has_unknown_state);
+        if !missing.is_empty() && !has_unknown_state && !self.is_exhausted() {
+            let message = format!(
+                "no region has {}: give it in each of them, or at the top level for all",
+                self.derivatives(&missing)
+            );
+            self.report(codes::DERIVATIVE_MISSING, place, message);
+        }
+        missing
+    }
+
+    /// The vector field, if every state has its rate. What is missing is reported, apart from
+    /// what was `reported` before.
+    fn complete(
+        &mut self,
+        body: &Body,
+        place: &Ident,
+        reported: &[usize],
+    ) -> Option<(Vec<Id>, Vec<Extent>)> {
+        let missing: Vec<usize> = (body.field.iter().enumerate())
+            .filter(|(state, component)| component.is_none() && !reported.contains(state))
+            .map(|(state, _)| state)
+            .collect();
+        if !missing.is_empty() && !body.has_unknown_state && !self.is_exhausted() {
+            let missing = self.derivatives(&missing);
+            let remedy = ": a state that does not change has the derivative 0";
+            let message = match &body.region {
+                Some(region) => format!("the region `{region}` has no {missing}{remedy}"),
+                None => format!("the system has no {missing}{remedy}"),
+            };
+            self.report(codes::DERIVATIVE_MISSING, place, message);
+        }
+        let components: Vec<(Id, Extent)> = (body.field.iter())
+            .map(|component| component.as_ref().and_then(|component| component.rate))
+            .collect::<Option<_>>()?;
+        Some(components.into_iter().unzip())
+    }
+
+    /// `` `der(x)`, `der(q[0])` to `der(q[7])` ``
+    fn derivatives(&self, states: &[usize]) -> String {
+        let name = |state: usize| {
+            let name = self.states.get(state).map(|state| state.name.to_string());
+            format!("`der({})`", name.unwrap_or_default())
+        };
+        let group = |state: usize| {
+            let state = self.states.get(state)?;
+            state.element.map(|_| &state.ident)
+        };
+        let follows = |&one: &usize, &next: &usize| {
+            next == one + 1 && group(one).is_some() && group(one) == group(next)
+        };
+        let runs = states.chunk_by(follows).flat_map(|run| match run {
+            [first, _, .., last] => vec![format!("{} to {}", name(*first), name(*last))],
+            few => few.iter().copied().map(name).collect(),
+        });
+        runs.collect::<Vec<String>>().join(", ")
     }
 
     /// The sign pattern, if every condition is in order.
     fn sides(&mut self, region: &RegionItem) -> Option<Vec<Side>> {
         if region.conditions.is_empty() {
-            let message = match self.interfaces.first() {
+            let (code, message) = match self.interfaces.first() {
                 // what is wrong with the interface has been reported
                 Some(None) => return None,
-                Some(Some(Interface { ident: interface, .. })) => format!(
-                    "on which side is the region `{}`? Write `region {} where {interface} > 0` (or `< 0`)",
-                    region.ident, region.ident
+                Some(Some(Interface { ident: interface, .. })) => (
+                    codes::REGION_WITHOUT_SIDE,
+                    format!(
+                        "on which side is the region `{}`? Write `region {} where {interface} > 0` (or `< 0`)",
+                        region.ident, region.ident
+                    ),
                 ),
-                None => "a region is bounded by an interface: declare `interface name = …;` and write `where name > 0`, or leave out the region and write its items at the top level".into(),
+                None => (
+                    codes::REGION_WITHOUT_INTERFACE,
+                    "a region is bounded by an interface: declare `interface name = …;` and write `where name > 0`, or leave out the region and write its items at the top level".into(),
+                ),
             };
-            self.error(&region.ident, message);
+            self.report(code, &region.ident, message);
             return None;
         }
         let sides: Vec<Option<Side>> = region
@@ -143,7 +193,7 @@ impl Resolver<'_> {
                     .any(|earlier| earlier.interface == side.interface)
             {
                 let message = format!("`{}` stands twice in this pattern", condition.interface);
-                self.error(&condition.interface, message);
+                self.report(codes::SIDE_TWICE, &condition.interface, message);
                 return None;
             }
         }
@@ -163,10 +213,13 @@ impl Resolver<'_> {
                 };
                 return Some(Side { interface, sign });
             }
+            // an interface was meant to be declared under this name
+            Some(_) if self.names.is_refused(&text) => return None,
             Some(kind) => {
                 self.names.mark_used(&text);
                 format!(
-                    "`{text}` is a {kind}, not an interface: declare `interface name = {text};` and write `name {} 0`",
+                    "`{text}` is {}, not an interface: declare `interface name = {text};` and write `name {} 0`",
+                    kind.article(),
                     condition.relation.symbol()
                 )
             }
@@ -177,7 +230,7 @@ impl Resolver<'_> {
                 None => format!("there is no interface `{text}`: declare `interface {text} = …;`"),
             },
         };
-        self.error(ident, message);
+        self.report(codes::NOT_AN_INTERFACE, ident, message);
         None
     }
 
@@ -189,14 +242,14 @@ impl Resolver<'_> {
             match variants.get(&variant) {
                 Some(earlier) if **earlier == item.ident => {
                     let message = format!("the region `{}` is declared twice", item.ident);
-                    self.error(&item.ident, message);
+                    self.report(codes::REGION_TWICE, &item.ident, message);
                 }
                 Some(earlier) => {
                     let message = format!(
                         "the regions `{earlier}` and `{}` are both called `{variant}` in Rust; rename one",
                         item.ident
                     );
-                    self.error(&item.ident, message);
+                    self.report(codes::REGION_TWICE, &item.ident, message);
                 }
                 None => {
                     variants.insert(variant, &item.ident);
@@ -216,7 +269,7 @@ impl Resolver<'_> {
             let message = format!(
                 "the interface `{interface}` bounds no region: write `region … where {interface} > 0 {{ … }}` and `region … where {interface} < 0 {{ … }}`, with the `der` items in them"
             );
-            self.error(interface, message);
+            self.report(codes::NO_REGION, interface, message);
             self.lacks_region = true;
             return;
         }
@@ -245,7 +298,7 @@ impl Resolver<'_> {
                         item.ident,
                         relation.symbol()
                     );
-                    self.error(&item.ident, message);
+                    self.report(codes::REGIONS_OVERLAP, &item.ident, message);
                 }
             } else {
                 missing.push(relation.symbol());
@@ -254,9 +307,31 @@ impl Resolver<'_> {
         if !is_unclear {
             self.lacks_region |= !missing.is_empty();
             for symbol in missing {
-                let message = format!("there is no region where `{interface} {symbol} 0`");
-                self.error(interface, message);
+                let message = format!(
+                    "there is no region where `{interface} {symbol} 0`: declare `region name where {interface} {symbol} 0 {{ … }}`"
+                );
+                self.report(codes::REGION_MISSING, interface, message);
             }
         }
+    }
+}
+
+/// A region of the model.
+fn finished(
+    attributes: Vec<Attribute>,
+    ident: &Ident,
+    sides: Vec<Side>,
+    (field, field_spans): (Vec<Id>, Vec<Extent>),
+    body: Body,
+) -> Region {
+    Region {
+        attributes,
+        ident: ident.clone(),
+        sides,
+        field,
+        field_spans,
+        conserved: body.conserved,
+        canonical: body.canonical,
+        independence: Independence::Nothing,
     }
 }

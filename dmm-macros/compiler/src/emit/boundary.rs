@@ -11,42 +11,62 @@ use super::lower::{Lowered, size};
 use super::paths;
 use super::store::{Store, constructor_impl};
 use super::system::Emission;
-use crate::algebra::{Dag, Id};
+use crate::algebra::{Dag, Id, Name};
 use crate::model::Sign;
+use crate::optimise::Optimiser;
+use crate::scheme::Scheme;
 
-/// The lowered nodes of an interface.
-struct Nodes {
+/// What the functions of an interface evaluate.
+pub(super) struct Nodes {
+    /// g
     value: Id,
+    /// Σ|terms of g|
     size: Id,
+    /// ∂ₜg
     time_derivative: Id,
+    /// ∇g
     gradient: Vec<Id>,
 }
 
-impl Nodes {
-    fn lower(dag: &mut Dag, lowered: &mut Lowered, emission: &Emission<'_>, index: usize) -> Self {
-        let value = emission.scheme.model.interfaces[index].switching_function;
-        let scheme = &emission.scheme.interfaces[index];
-        let size = size(dag, value);
-        Self {
-            value: lowered.lower(dag, value),
-            size: lowered.lower(dag, size),
-            time_derivative: lowered.lower(dag, scheme.time_derivative),
-            gradient: scheme
-                .gradient
-                .iter()
-                .map(|&entry| lowered.lower(dag, entry))
-                .collect(),
-        }
-    }
+/// The operations of all interfaces, optimised.
+pub(super) fn operations(
+    dag: &mut Dag,
+    scheme: &Scheme,
+    parameters: Vec<Name>,
+    optimiser: &mut Optimiser,
+) -> (Vec<Nodes>, Lowered) {
+    let mut lowered = Lowered::new(parameters.clone());
+    let mut target = Lowered::new(parameters);
+    let interfaces = scheme.model.interfaces.iter().zip(&scheme.interfaces);
+    let nodes = interfaces
+        .map(|(interface, derivatives)| {
+            let size = size(dag, interface.switching_function);
+            let size = lowered.lower(dag, size);
+            let mut nodes = Nodes {
+                value: lowered.lower(dag, interface.switching_function),
+                size: target.copy(&lowered, size),
+                time_derivative: lowered.lower(dag, derivatives.time_derivative),
+                gradient: derivatives
+                    .gradient
+                    .iter()
+                    .map(|&entry| lowered.lower(dag, entry))
+                    .collect(),
+            };
+            let mut gradient = vec![&mut nodes.time_derivative];
+            gradient.extend(&mut nodes.gradient);
+            target.optimise(&lowered, vec![vec![&mut nodes.value], gradient], optimiser);
+            nodes
+        })
+        .collect();
+    (nodes, target)
 }
 
 /// The struct `name` of the boundaries with its `impl`s.
-pub(super) fn boundary(emission: &Emission<'_>, name: &Ident) -> TokenStream {
-    let mut dag = emission.scheme.dag().clone();
-    let mut lowered = Lowered::new(emission.parameters.clone());
-    let nodes: Vec<Nodes> = (0..emission.scheme.interfaces.len())
-        .map(|index| Nodes::lower(&mut dag, &mut lowered, emission, index))
-        .collect();
+pub(super) fn boundary(
+    emission: &Emission<'_>,
+    name: &Ident,
+    (nodes, lowered): &(Vec<Nodes>, Lowered),
+) -> TokenStream {
     let roots: Vec<Id> = nodes
         .iter()
         .flat_map(|nodes| {
@@ -55,17 +75,17 @@ pub(super) fn boundary(emission: &Emission<'_>, name: &Ident) -> TokenStream {
                 .chain(nodes.gradient.iter().copied())
         })
         .collect();
-    let store = Store::new(&lowered, &roots, &[]);
+    let store = Store::new(lowered, &roots, &[]);
     let functions = Functions {
-        lowered: &lowered,
+        lowered,
         store: &store,
         scalar: &emission.scalar,
         states: &emission.states,
     };
     let scalar = &emission.scalar;
-    let fields = store.fields(&lowered, scalar);
+    let fields = store.fields(lowered, scalar);
     let (statements, values) =
-        store.constructor(&lowered, scalar, &|parameter| emission.field_of(parameter));
+        store.constructor(lowered, scalar, &|parameter| emission.field_of(parameter));
     let constructor = constructor_impl(
         scalar,
         &quote!(const REGION: usize, const COUNT: usize),
@@ -74,7 +94,7 @@ pub(super) fn boundary(emission: &Emission<'_>, name: &Ident) -> TokenStream {
         &statements,
         &values,
     );
-    let implementation = implementation(emission, name, &functions, &nodes);
+    let implementation = implementation(emission, name, &functions, nodes);
     quote! {
         /// The `COUNT` interfaces that bound region number `REGION`.
         #[derive(Clone, Copy, Debug)]

@@ -17,19 +17,20 @@ use super::system::Emission;
 use crate::scheme::Solvability;
 
 /// The struct of a region's flow with its `impl`s.
-pub(super) fn flow(emission: &Emission<'_>, region: usize) -> TokenStream {
-    let mut dag = emission.scheme.dag().clone();
-    let mut lowered = Lowered::new(emission.parameters.clone());
-    let nodes = Nodes::lower(&mut dag, &mut lowered, emission, region);
-    let store = Store::new(&lowered, &nodes.roots(), &["boundary"]);
+pub(super) fn flow(
+    emission: &Emission<'_>,
+    region: usize,
+    (nodes, lowered): &(Nodes, Lowered),
+) -> TokenStream {
+    let store = Store::new(lowered, &nodes.roots(), &["boundary"]);
     let functions = Functions {
-        lowered: &lowered,
+        lowered,
         store: &store,
         scalar: &emission.scalar,
         states: &emission.states,
     };
-    let item = item(emission, region, &lowered, &store);
-    let implementation = implementation(emission, region, &functions, &nodes);
+    let item = item(emission, region, lowered, &store);
+    let implementation = implementation(emission, region, &functions, nodes);
     quote!(#item #implementation)
 }
 
@@ -90,7 +91,7 @@ fn implementation(
     let autonomous = scheme.autonomous;
     let boundary = boundary(emission, region);
     let point = point_functions(functions, nodes, scalar);
-    let step = step_functions(functions, &nodes.discrete, scalar, autonomous);
+    let step = step_functions(functions, &nodes.discrete, scalar);
     quote! {
         #[automatically_derived]
         impl<#scalar: #bound> #flow<#scalar, #states, #conserved> for #name<#scalar> {

@@ -22,6 +22,9 @@ pub(super) enum Arguments {
     Step,
 }
 
+/// Matrices with as many entries are written without their zeros, if they have many.
+const LARGE_MATRIX: usize = 64;
+
 /// Names that emitted functions use themselves.
 const RESERVED: &[&str] = &[
     "self",
@@ -119,6 +122,9 @@ impl<'a> Functions<'a> {
         }
         let scalar = self.scalar;
         let mut block = Block::new(self.lowered, quote!(#scalar), names, &known, roots);
+        if arguments == Arguments::Step {
+            block = block.fusing();
+        }
         let result = finish(&mut block, late);
         let statements = block.statements();
         quote!(#locals #statements #result)
@@ -143,14 +149,36 @@ impl<'a> Functions<'a> {
         quote!(#vector::from([#(#entries),*]))
     }
 
-    /// A matrix with the values of `rows`, by columns as nalgebra stores it.
+    /// A matrix with the values of `rows`: by columns as nalgebra stores it, or, where most
+    /// entries of a large one are zero, by the places of the others.
     pub(super) fn matrix(&self, block: &Block<'_>, rows: &[Vec<Id>]) -> TokenStream {
         let matrix = paths::support("Matrix");
+        let dag = self.lowered.dag();
+        let entries = || rows.iter().flatten();
+        let others = entries().filter(|&&entry| !dag.is_zero(entry)).count();
+        if entries().count() >= LARGE_MATRIX && 2 * others < entries().count() {
+            return self.sparse_matrix(block, rows);
+        }
         let columns = (0..self.states.len()).map(|column| {
             let entries = rows.iter().map(|row| block.value(row[column]));
             quote!([#(#entries),*])
         });
         quote!(#matrix::from([#(#columns),*]))
+    }
+
+    /// The entries that are not zero, with their places.
+    fn sparse_matrix(&self, block: &Block<'_>, rows: &[Vec<Id>]) -> TokenStream {
+        let (sparse, scalar) = (paths::support("sparse"), self.scalar);
+        let [count, columns] = [rows.len(), self.states.len()].map(paths::count);
+        let entries = rows.iter().enumerate().flat_map(|(i, row)| {
+            let row = row.iter().enumerate();
+            let others = row.filter(|&(_, &entry)| !self.lowered.dag().is_zero(entry));
+            others.map(move |(j, &entry)| {
+                let ([i, j], value) = ([i, j].map(paths::count), block.value(entry));
+                quote!(((#i, #j), #value))
+            })
+        });
+        quote!(#sparse::<#scalar, #count, #columns, _>([#(#entries),*]))
     }
 }
 

@@ -13,6 +13,7 @@ use num_traits::{One, ToPrimitive, Zero};
 use super::constant::{fold, is_double};
 use crate::algebra::{Dag, Function, Id, Math, Name, Rational};
 use crate::model::Model;
+use crate::optimise::{Optimiser, Program};
 
 /// Integer powers up to this one become chains of products.
 const LONGEST_CHAIN: i64 = 64;
@@ -36,6 +37,11 @@ impl Lowered {
             image: HashMap::new(),
             fixed: Vec::new(),
         }
+    }
+
+    /// The variables that do not change within an integration.
+    pub(super) fn parameters(&self) -> &[Name] {
+        &self.parameters
     }
 
     /// The lowered operations.
@@ -71,6 +77,49 @@ impl Lowered {
             },
             _ => None,
         }
+    }
+
+    /// Whether a node is the exponential of a [`Self::secular`] exponent.
+    pub(super) fn is_secular_exponential(&self, id: Id) -> bool {
+        matches!(self.dag[id], Math::Call(Function::Exp, exponent) if self.secular(exponent).is_some())
+    }
+
+    /// Replaces the roots of `functions` in `source` by optimised ones of this DAG.
+    pub(super) fn optimise(
+        &mut self,
+        source: &Self,
+        functions: Vec<Vec<&mut Id>>,
+        optimiser: &mut Optimiser,
+    ) {
+        let roots = functions
+            .iter()
+            .map(|function| function.iter().map(|root| **root).collect());
+        let program = Program {
+            dag: &source.dag,
+            is_fixed: &|id| source.is_fixed(id),
+            is_atom: &|id| source.is_secular_exponential(id),
+            functions: roots.collect(),
+        };
+        let optimised = optimiser.optimise(&program, &mut |node| match node {
+            Math::Mul([a, b]) => self.multiply(a, b),
+            node => self.insert(node),
+        });
+        for (function, images) in functions.into_iter().zip(optimised) {
+            for (root, image) in function.into_iter().zip(images) {
+                *root = image;
+            }
+        }
+    }
+
+    /// Adds a node of `other` as it is.
+    pub(super) fn copy(&mut self, other: &Self, root: Id) -> Id {
+        let mut image: HashMap<Id, Id> = HashMap::new();
+        for id in other.dag.reachable([root]) {
+            let node = other.dag[id].clone();
+            let copy = self.insert(node.map_children(|child| image[&child]));
+            image.insert(id, copy);
+        }
+        image[&root]
     }
 
     /// Lowers `root` of `source`. All calls must be with the same `source`.

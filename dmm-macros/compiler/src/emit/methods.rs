@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::function::{Arguments, Functions};
 use super::minimal_norm::minimal_norm;
-use super::nodes::{Discrete, Field, Nodes};
+use super::nodes::{Discrete, Field, Nodes, Rows};
 use super::paths;
 use crate::algebra::Id;
 
@@ -52,8 +52,8 @@ pub(super) struct StepBodies {
     pub(super) value: TokenStream,
     /// (f^τ, ∂f^τ/∂x₁)
     pub(super) linearised: TokenStream,
-    /// ∂f^τ/∂t₁
-    pub(super) time_derivative: TokenStream,
+    /// ∂f^τ/∂t₁, where the flow is not autonomous
+    pub(super) time_derivative: Option<TokenStream>,
 }
 
 /// f, ψ, Σ|terms of ψ| and (ψ, Λ).
@@ -71,13 +71,7 @@ pub(super) fn point_functions(
             functions.vector(block, roots)
         })
     };
-    let linear: Vec<Id> = [&nodes.psi[..], &nodes.multiplier.concat()].concat();
-    let multiplier = functions.body(Arguments::Point, &linear, |block| {
-        block.compute(&linear);
-        let value = functions.vector(block, &nodes.psi);
-        let rows = functions.matrix(block, &nodes.multiplier);
-        quote!((#value, #rows))
-    });
+    let multiplier = pair(functions, Arguments::Point, &nodes.multiplier);
     let small = quote!(#vector<#scalar, #m>);
     [
         (
@@ -119,7 +113,6 @@ pub(super) fn step_functions(
     functions: &Functions<'_>,
     discrete: &Discrete,
     scalar: &Ident,
-    autonomous: bool,
 ) -> TokenStream {
     let count = functions.states.len();
     let n = paths::count(count);
@@ -148,8 +141,8 @@ pub(super) fn step_functions(
             linearised,
         ),
     ];
-    if !autonomous {
-        methods.push(("∂f^τ/∂t₁", "time_derivative", column, time_derivative));
+    if let Some(body) = time_derivative {
+        methods.push(("∂f^τ/∂t₁", "time_derivative", column, body));
     }
     methods
         .into_iter()
@@ -174,16 +167,24 @@ fn explicit(functions: &Functions<'_>, field: &Field) -> StepBodies {
             functions.vector(block, roots)
         })
     };
-    let roots = [&field.value[..], &field.jacobian.concat()].concat();
-    let linearised = functions.body(Arguments::Step, &roots, |block| {
-        block.compute(&roots);
-        let value = functions.vector(block, &field.value);
-        let jacobian = functions.matrix(block, &field.jacobian);
-        quote!((#value, #jacobian))
-    });
     StepBodies {
         value: column(&field.value),
-        linearised,
-        time_derivative: column(&field.time_derivative),
+        linearised: pair(functions, Arguments::Step, &field.linearised),
+        time_derivative: field.time_derivative.as_deref().map(column),
     }
+}
+
+/// The body for a column and a matrix.
+fn pair(
+    functions: &Functions<'_>,
+    arguments: Arguments,
+    (column, rows): &(Vec<Id>, Rows),
+) -> TokenStream {
+    let roots = [&column[..], &rows.concat()].concat();
+    functions.body(arguments, &roots, |block| {
+        block.compute(&roots);
+        let column = functions.vector(block, column);
+        let matrix = functions.matrix(block, rows);
+        quote!((#column, #matrix))
+    })
 }

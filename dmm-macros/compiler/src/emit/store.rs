@@ -11,7 +11,7 @@ use super::code::{Block, plain, suggestion};
 use super::lower::Lowered;
 use super::names::Names;
 use super::paths;
-use crate::algebra::{Id, Math, to_text};
+use crate::algebra::{Id, Math, Name, to_text};
 
 /// The fields of an emitted struct.
 pub(super) struct Store {
@@ -72,7 +72,7 @@ impl Store {
         &self,
         lowered: &Lowered,
         scalar: &Ident,
-        field_of: &dyn Fn(&str) -> Option<Ident>,
+        field_of: &dyn Fn(&str) -> Option<TokenStream>,
     ) -> (TokenStream, TokenStream) {
         let roots: Vec<Id> = self.computed.keys().copied().collect();
         let mut names = Names::reserving(["self", "system"]);
@@ -80,9 +80,9 @@ impl Store {
         let mut statements = TokenStream::new();
         for (id, name) in variables(lowered, self.parameters.keys().chain(&roots).copied()) {
             // a bare name would be taken for a constant of that name in the user's scope
-            let local = names.take(&format!("parameter_{name}"));
+            let local = names.take(&format!("parameter_{}", plain(&name)));
             // a variable that no parameter declares cannot occur in a fixed expression
-            let Some(source) = field_of(&name) else {
+            let Some(source) = field_of(name.as_str()) else {
                 continue;
             };
             statements.extend(quote!(let #local = #scalar::from_f64(system.#source);));
@@ -127,13 +127,13 @@ fn fixed_frontier(lowered: &Lowered, roots: &[Id]) -> (BTreeSet<Id>, BTreeSet<Id
 }
 
 /// The variables under `roots`, with their names.
-fn variables(lowered: &Lowered, roots: impl IntoIterator<Item = Id>) -> Vec<(Id, String)> {
+fn variables(lowered: &Lowered, roots: impl IntoIterator<Item = Id>) -> Vec<(Id, Name)> {
     lowered
         .dag()
         .reachable(roots)
         .into_iter()
         .filter_map(|id| match &lowered.dag()[id] {
-            Math::Variable(name) => Some((id, name.as_str().to_owned())),
+            Math::Variable(name) => Some((id, name.clone())),
             _ => None,
         })
         .collect()

@@ -10,11 +10,12 @@ use super::boundary::{boundary, sign};
 use super::code::{Block, double};
 use super::constant::nearest_double;
 use super::flow::flow;
-use super::listing::listing;
+use super::listing;
 use super::lower::Lowered;
 use super::names::Names;
+use super::operations::Operations;
 use super::paths;
-use crate::algebra::{Math, Name};
+use crate::algebra::{Math, Name, to_text};
 use crate::model::camel_case;
 use crate::model::{Parameter, Sign};
 use crate::scheme::Scheme;
@@ -70,29 +71,41 @@ impl<'a> Emission<'a> {
         }
     }
 
-    /// The field of the system that holds a parameter.
-    pub(super) fn field_of(&self, parameter: &str) -> Option<Ident> {
+    /// The field of the system that holds a parameter: `k`, `m[0]`.
+    pub(super) fn field_of(&self, parameter: &str) -> Option<TokenStream> {
         let parameters = &self.scheme.model.parameters;
         parameters
             .iter()
             .find(|one| one.name.as_str() == parameter)
-            .map(|one| one.ident.clone())
+            .map(field)
+    }
+
+    /// The parameters, the elements of a group together.
+    fn fields(&self) -> impl Iterator<Item = &'a [Parameter]> {
+        let parameters = &self.scheme.model.parameters;
+        parameters.chunk_by(|one, next| next.element.is_some() && one.ident == next.ident)
     }
 }
 
 /// Everything that `pws!` emits for a system.
-pub(super) fn system(scheme: &Scheme) -> TokenStream {
+pub(super) fn system(scheme: &Scheme, operations: &Operations) -> TokenStream {
     let emission = Emission::new(scheme);
     let import = paths::import();
-    let item = item(&emission);
+    let listing = listing::listing(scheme);
+    let item = item(&emission, &listing);
     let regions = regions(&emission);
     let default = default(&emission);
-    let implementation = implementation(&emission);
+    let implementation = implementation(&emission, &listing);
     let boundary = emission
         .boundary
         .as_ref()
-        .map(|name| boundary(&emission, name));
-    let flows = (0..scheme.regions.len()).map(|region| flow(&emission, region));
+        .zip(operations.boundary.as_ref())
+        .map(|(name, operations)| boundary(&emission, name, operations));
+    let flows = operations
+        .regions
+        .iter()
+        .enumerate()
+        .map(|(region, operations)| flow(&emission, region, &operations.optimised));
     quote! {
         #item
         #regions
@@ -125,29 +138,41 @@ fn documentation(attributes: &[Attribute], otherwise: &str) -> TokenStream {
     }
 }
 
-/// The struct with the parameters.
-fn item(emission: &Emission<'_>) -> TokenStream {
+/// The struct with the parameters. Its documentation shows the scheme.
+fn item(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let model = &emission.scheme.model;
     let (visibility, name) = (&model.visibility, &model.name);
     let docs = documentation(&model.attributes, &format!("The system `{name}`."));
-    let fields = model.parameters.iter().map(|parameter| {
-        let ident = &parameter.ident;
-        let docs = documentation(&parameter.attributes, &format!("Parameter `{ident}`."));
-        let default = format!(
-            " Default: `{}`.",
-            crate::algebra::to_text(&model.dag, parameter.default)
-        );
-        quote!(#docs #[doc = ""] #[doc = #default] pub #ident: f64,)
+    let scheme = listing::documentation(listing);
+    let fields = emission.fields().filter_map(|elements| {
+        let first = elements.first()?;
+        let ident = &first.ident;
+        let what = match first.element {
+            Some(_) => "Parameters",
+            None => "Parameter",
+        };
+        let docs = documentation(&first.attributes, &format!("{what} `{ident}`."));
+        let default = format!(" Default: `{}`.", default_text(emission, elements));
+        let kind = match first.element {
+            Some(_) => {
+                let count = paths::count(elements.len());
+                quote!([f64; #count])
+            }
+            None => quote!(f64),
+        };
+        Some(quote!(#docs #[doc = ""] #[doc = #default] pub #ident: #kind,))
     });
     quote! {
         #docs
+        #[doc = ""]
+        #[doc = #scheme]
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(non_snake_case)]
         #visibility struct #name { #(#fields)* }
     }
 }
 
-/// The enumeration of the regions.
+/// The enumeration of the regions. The documentation of a variant shows f^τ in that region.
 fn regions(emission: &Emission<'_>) -> TokenStream {
     let model = &emission.scheme.model;
     let (visibility, name, region) = (&model.visibility, &model.name, &emission.region);
@@ -156,7 +181,8 @@ fn regions(emission: &Emission<'_>) -> TokenStream {
         .regions
         .iter()
         .zip(&emission.variants)
-        .map(|(one, variant)| {
+        .enumerate()
+        .map(|(index, (one, variant))| {
             let sides: Vec<String> = one
                 .sides
                 .iter()
@@ -173,7 +199,9 @@ fn regions(emission: &Emission<'_>) -> TokenStream {
                 sides => format!("Where `{}`.", sides.join(", ")),
             };
             let docs = documentation(&one.attributes, &place);
-            quote!(#docs #variant,)
+            let field = listing::discrete_vector_field(emission.scheme, index);
+            let field = listing::documentation(&field);
+            quote!(#docs #[doc = ""] #[doc = #field] #variant,)
         });
     quote! {
         #[doc = #docs]
@@ -186,15 +214,50 @@ fn regions(emission: &Emission<'_>) -> TokenStream {
 fn default(emission: &Emission<'_>) -> TokenStream {
     let model = &emission.scheme.model;
     let name = &model.name;
-    let values = model.parameters.iter().map(|parameter| {
-        let (ident, value) = (&parameter.ident, default_value(emission, parameter));
-        quote!(#ident: #value,)
+    let values = emission.fields().filter_map(|elements| {
+        let first = elements.first()?;
+        let ident = &first.ident;
+        let values: Vec<TokenStream> = elements
+            .iter()
+            .map(|parameter| default_value(emission, parameter))
+            .collect();
+        Some(match first.element {
+            Some(_) => quote!(#ident: [#(#values),*],),
+            None => quote!(#ident: #(#values)*,),
+        })
     });
     quote! {
         #[automatically_derived]
         impl ::core::default::Default for #name {
             fn default() -> Self { Self { #(#values)* } }
         }
+    }
+}
+
+/// The field, or the element of a field, that holds a parameter.
+fn field(parameter: &Parameter) -> TokenStream {
+    let ident = &parameter.ident;
+    match parameter.element {
+        Some(element) => {
+            let element = paths::count(element);
+            quote!(#ident[#element])
+        }
+        None => quote!(#ident),
+    }
+}
+
+/// `1`, `[1, 2, 3]`, `[1; 3]`
+fn default_text(emission: &Emission<'_>, elements: &[Parameter]) -> String {
+    let texts: Vec<String> = elements
+        .iter()
+        .map(|parameter| to_text(emission.scheme.dag(), parameter.default))
+        .collect();
+    match texts.as_slice() {
+        [only] if elements.iter().all(|one| one.element.is_none()) => only.clone(),
+        [first, _, ..] if texts.iter().all(|text| text == first) => {
+            format!("[{first}; {}]", texts.len())
+        }
+        texts => format!("[{}]", texts.join(", ")),
     }
 }
 
@@ -223,14 +286,14 @@ fn default_value(emission: &Emission<'_>, parameter: &Parameter) -> TokenStream 
 }
 
 /// `impl System`
-fn implementation(emission: &Emission<'_>) -> TokenStream {
+fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let model = &emission.scheme.model;
     let (name, region) = (&model.name, &emission.region);
     let (states, variants) = (paths::count(model.states.len()), &emission.variants);
     let [system, visitor] = ["System", "FlowVisitor"].map(paths::support);
-    let constants = constants(emission);
+    let constants = constants(emission, listing);
     let by_region = by_region(emission);
-    let fields: Vec<&Ident> = model.parameters.iter().map(|one| &one.ident).collect();
+    let fields: Vec<TokenStream> = model.parameters.iter().map(field).collect();
     let indices = (0..fields.len()).map(paths::count);
     let flows = &emission.flows;
     quote! {
@@ -257,7 +320,7 @@ fn implementation(emission: &Emission<'_>) -> TokenStream {
 }
 
 /// The names and texts of `impl System`.
-fn constants(emission: &Emission<'_>) -> TokenStream {
+fn constants(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let model = &emission.scheme.model;
     let (region, variants) = (&emission.region, &emission.variants);
     let name = plain_text(&model.name);
@@ -265,7 +328,7 @@ fn constants(emission: &Emission<'_>) -> TokenStream {
     let states = emission.states.iter().map(Name::as_str);
     let parameters = emission.parameters.iter().map(Name::as_str);
     let interfaces = model.interfaces.iter().map(|one| plain_text(&one.ident));
-    let (declaration, listing) = (&model.source, listing(emission.scheme));
+    let declaration = &model.source;
     quote! {
         const NAME: &'static str = #name;
         const STATES: [&'static str; #count] = [#(#states),*];

@@ -1,95 +1,191 @@
 //! Independence of conserved quantities: ΛΛᵀ has to have an inverse at generic points, so that
 //! the rows of Λ = ∇ψ are linearly independent there, and M of them in N states leave N − M
 //! directions to move in.
+//!
+//! - They are independent at generic points if one M×M minor of Λ is not zero at one point,
+//!   which Gaussian elimination in interval arithmetic proves: formulas are analytic, so that
+//!   the minor then vanishes on a set without interior only.
+//! - The set where they become dependent is where all minors vanish, which the normal form of
+//!   the minors gives if there are few and small ones.
+//! - A row depends on those before it, everywhere, if one minor of these is not zero, and all
+//!   minors that border it with the row and one more column are proved to be (Kronecker).
 
 use std::collections::BTreeMap;
 
-use super::{Quantity, Variables, in_region};
-use crate::algebra::{Dag, Id, Name, evaluate};
+use super::message::in_region;
+use super::points::points;
+use super::{Quantity, Variables};
+use crate::algebra::evaluate::{Interval, enclose};
+use crate::algebra::normal_form::common_zeros;
+use crate::algebra::{Dag, Id, Name, evaluate, is_proved_zero};
 use crate::diagnostics::Diagnostics;
-use crate::model::Region;
+use crate::diagnostics::catalogue::proofs as codes;
+use crate::model::{Independence, Region};
 
-/// Gradients are compared at this many points; fewer than a quarter of them in the domain of
-/// the formulas say nothing.
-const SAMPLES: usize = 32;
-/// A gradient depends on others if what is left of it, after projecting them out, is smaller
-/// than this part of it: far above rounding, far below what an independent one leaves at all
-/// of the sample points.
+/// Points at which gradients are compared.
+const SAMPLES: usize = 48;
+/// A gradient seems to depend on others if what is left of it, after projecting them out, is
+/// smaller than this part of it: far above rounding, far below what an independent one leaves.
 const DEPENDENT: f64 = 1e-9;
+/// The set of dependence is looked for among this many minors …
+const MOST_MINORS: usize = 20;
+/// … of this many rows, …
+const MOST_ROWS: usize = 4;
+/// … and told if it is written with this many nodes.
+const MOST_NODES: usize = 160;
 
-/// Reports quantities of which there are too many, or that depend on one another.
-pub(super) fn check(
-    dag: &Dag,
+/// What is known of the independence of `quantities`; too many of them, and a proved
+/// dependence, are reported.
+pub(super) fn examine(
+    dag: &mut Dag,
     variables: &Variables,
     region: &Region,
-    quantities: &[Quantity<'_>],
+    quantities: &[Quantity],
     diagnostics: &mut Diagnostics,
-) {
+) -> Independence {
     let n = variables.states.len();
     let place = in_region(region);
-    if let Some(first_too_many) = quantities.get(n) {
+    if quantities.is_empty() {
+        return Independence::Nothing;
+    }
+    if let Some(first_too_many) = region.conserved.get(n) {
         let message = format!(
             "{} conserved quantities of {n} states depend on one another{place}: leave out {}",
             quantities.len(),
             quantities.len() - n
         );
-        diagnostics.error(first_too_many.declared.span, message);
-        return;
+        diagnostics.report(codes::TOO_MANY_QUANTITIES, first_too_many.span, message);
+        return Independence::Nothing;
     }
-    if let Some(dependent) = first_dependent(dag, variables, quantities)
-        && let Some(quantity) = quantities.get(dependent)
-    {
-        let others: Vec<String> = quantities
-            .iter()
-            .take(dependent)
-            .map(|other| format!("`{}`", other.declared.ident))
-            .collect();
-        let message = format!(
-            "`{}` depends on {}{place}: their gradients are linearly dependent; remove it",
-            quantity.declared.ident,
-            others.join(", ")
-        );
-        diagnostics.error(quantity.declared.span, message);
-        return;
+    let rows: Vec<&[Id]> = quantities.iter().map(|q| q.gradient.as_slice()).collect();
+    let formulas: Vec<Id> = quantities.iter().map(|q| q.psi).collect();
+    let sampled = sample(dag, variables, &rows, &formulas);
+    if let Some(dependent) = &sampled.dependent {
+        if is_proved_dependent(dag, &rows, dependent)
+            && let Some(quantity) = region.conserved.get(dependent.row)
+        {
+            let others: Vec<String> = region
+                .conserved
+                .iter()
+                .take(dependent.row)
+                .map(|other| format!("`{}`", other.ident))
+                .collect();
+            let message = format!(
+                "`{}` depends on {}{place}: their gradients are linearly dependent; remove it",
+                quantity.ident,
+                others.join(", ")
+            );
+            diagnostics.report(codes::DEPENDENT_QUANTITIES, quantity.span, message);
+        }
+        return Independence::Nothing;
+    }
+    if !sampled.independent {
+        return Independence::Nothing;
     }
     if quantities.len() == n
         && quantities.iter().all(|quantity| quantity.autonomous)
-        && let Some(last) = quantities.last()
+        && let Some(last) = region.conserved.last()
     {
         let message = format!(
             "{n} independent conserved quantities of {n} states leave nothing to move{place}: declare one less, or none where the vector field is zero"
         );
-        diagnostics.error(last.declared.span, message);
+        diagnostics.report(codes::NOTHING_MOVES, last.span, message);
     }
+    set_of_dependence(dag, &rows).unwrap_or(Independence::Generic)
 }
 
-/// The first quantity whose gradient depends on those before it at every sample point.
-fn first_dependent(dag: &Dag, variables: &Variables, quantities: &[Quantity<'_>]) -> Option<usize> {
-    if quantities.len() < 2 {
-        return None;
-    }
+/// What the sample points say.
+struct Sampled {
+    /// Whether a minor of all rows is proved not to be zero at a point.
+    independent: bool,
+    /// The first row that seems to depend on those before it at every point.
+    dependent: Option<Dependent>,
+}
+
+/// A row that seems to depend on those before it.
+struct Dependent {
+    row: usize,
+    /// The columns of a minor of the rows before it that is proved not to be zero at a point.
+    columns: Vec<usize>,
+}
+
+fn sample(dag: &Dag, variables: &Variables, rows: &[&[Id]], formulas: &[Id]) -> Sampled {
     let n = variables.states.len();
-    let roots: Vec<Id> = quantities
-        .iter()
-        .flat_map(|q| q.gradient.iter().copied())
-        .collect();
-    let mut in_domain = 0;
-    let mut dependent = vec![true; quantities.len()];
-    for point in sample_points(&variables.all) {
+    let roots: Vec<Id> = rows.iter().flat_map(|row| row.iter().copied()).collect();
+    let mut dependent = vec![true; rows.len()];
+    let mut in_domain: Vec<BTreeMap<Name, f64>> = Vec::new();
+    for point in points(dag, variables).take(SAMPLES) {
         let values = evaluate(dag, &roots, &point);
         if values.iter().any(|value| !value.is_finite()) {
             continue;
         }
-        in_domain += 1;
-        let rows: Vec<&[f64]> = values.chunks(n).collect();
-        for (flag, here) in dependent.iter_mut().zip(dependencies(&rows)) {
+        let values: Vec<&[f64]> = values.chunks(n).collect();
+        let here = dependencies(&values);
+        let full = here.iter().all(|&flag| !flag);
+        if full && columns_of_minor(dag, rows, formulas, &point).is_some() {
+            return Sampled {
+                independent: true,
+                dependent: None,
+            };
+        }
+        for (flag, here) in dependent.iter_mut().zip(here) {
             *flag &= here;
         }
+        in_domain.push(point);
     }
-    if in_domain < SAMPLES / 4 {
+    let row = dependent.iter().position(|&flag| flag);
+    let dependent = row.filter(|_| !in_domain.is_empty()).and_then(|row| {
+        let before = rows.get(..row)?;
+        let columns = in_domain
+            .iter()
+            .find_map(|point| columns_of_minor(dag, before, formulas, point))?;
+        Some(Dependent { row, columns })
+    });
+    Sampled {
+        independent: false,
+        dependent,
+    }
+}
+
+/// Columns of a minor of `rows` that is proved not to be zero at `point`: every pivot of a
+/// Gaussian elimination in intervals excludes zero.
+fn columns_of_minor(
+    dag: &Dag,
+    rows: &[&[Id]],
+    formulas: &[Id],
+    point: &BTreeMap<Name, f64>,
+) -> Option<Vec<usize>> {
+    if !enclose(dag, formulas, point)
+        .iter()
+        .all(|value| value.defined)
+    {
         return None;
     }
-    dependent.iter().position(|&flag| flag)
+    let mut matrix: Vec<Vec<Interval>> = rows.iter().map(|row| enclose(dag, row, point)).collect();
+    if !matrix.iter().flatten().all(|entry| entry.defined) {
+        return None;
+    }
+    let mut columns = Vec::new();
+    for row in 0..matrix.len() {
+        let (done, rest) = matrix.split_at_mut(row + 1);
+        let pivot_row = done.last()?;
+        let size = |entry: &Interval| entry.low.max(-entry.high);
+        let (column, pivot) = pivot_row
+            .iter()
+            .enumerate()
+            .filter(|(_, entry)| entry.nonzero)
+            .max_by(|a, b| size(a.1).total_cmp(&size(b.1)))?;
+        for other in rest {
+            let factor = *other.get(column)? / *pivot;
+            for (entry, above) in other.iter_mut().zip(pivot_row) {
+                *entry = *entry - factor * *above;
+            }
+            // it is zero by construction
+            *other.get_mut(column)? = Interval::point(0.0);
+        }
+        columns.push(column);
+    }
+    Some(columns)
 }
 
 /// Which rows depend on the rows before them, by orthogonal projection (modified Gram–Schmidt,
@@ -125,22 +221,90 @@ fn norm(row: &[f64]) -> f64 {
         .sqrt()
 }
 
-/// Points with generic coordinates, half of them positive only, where roots and logarithms are
-/// real. They are the same in every run.
-fn sample_points(variables: &[Name]) -> impl Iterator<Item = BTreeMap<Name, f64>> {
-    // the golden ratio's multiples modulo 1 are spread evenly
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    (0..SAMPLES).map(move |sample| {
-        let coordinate = |(index, name): (usize, &Name)| {
-            let number = (sample * variables.len() + index + 1) as f64;
-            let unit = (number * GOLDEN + (index as f64).sqrt() * GOLDEN).fract();
-            let value = if sample % 2 == 0 {
-                0.1 + 0.8 * unit
-            } else {
-                3.7 * unit - 1.6
-            };
-            (name.clone(), value)
-        };
-        variables.iter().enumerate().map(coordinate).collect()
+/// Whether every minor that borders the one of `dependent` is proved to be zero.
+fn is_proved_dependent(dag: &mut Dag, rows: &[&[Id]], dependent: &Dependent) -> bool {
+    let Some(bordered) = rows.get(..=dependent.row) else {
+        return false;
+    };
+    let n = bordered.first().map_or(0, |row| row.len());
+    if bordered.len() > MOST_ROWS + 1 {
+        return false;
+    }
+    (0..n)
+        .filter(|column| !dependent.columns.contains(column))
+        .all(|column| {
+            let mut columns = dependent.columns.clone();
+            columns.push(column);
+            let minor = determinant(dag, bordered, &columns);
+            is_proved_zero(dag, minor)
+        })
+}
+
+/// Where all minors of `rows` vanish, if they are few and the answer is short.
+fn set_of_dependence(dag: &mut Dag, rows: &[&[Id]]) -> Option<Independence> {
+    let n = rows.first()?.len();
+    if rows.len() > MOST_ROWS {
+        return None;
+    }
+    let choices = choices(n, rows.len(), MOST_MINORS)?;
+    let minors: Vec<Id> = choices
+        .iter()
+        .map(|columns| determinant(dag, rows, columns))
+        .collect();
+    let zeros = common_zeros(dag, &minors)?;
+    let nodes: usize = zeros
+        .factors
+        .iter()
+        .chain(&zeros.cofactors)
+        .map(|&id| dag.tree_size(id))
+        .sum();
+    (nodes <= MOST_NODES).then_some(Independence::Proved {
+        factors: zeros.factors,
+        minors: zeros.cofactors,
     })
+}
+
+/// The subsets of `count` columns of `n`, unless there are more than `most`.
+fn choices(n: usize, count: usize, most: usize) -> Option<Vec<Vec<usize>>> {
+    let mut subsets: Vec<Vec<usize>> = vec![Vec::new()];
+    for _ in 0..count {
+        let mut longer = Vec::new();
+        for subset in &subsets {
+            let first = subset.last().map_or(0, |&last| last + 1);
+            for column in first..n {
+                let mut extended = subset.clone();
+                extended.push(column);
+                longer.push(extended);
+            }
+        }
+        subsets = longer;
+        if subsets.len() > most.saturating_mul(4) {
+            return None;
+        }
+    }
+    (subsets.len() <= most).then_some(subsets)
+}
+
+/// The determinant of the square matrix of `columns` of `rows`, by the first row.
+fn determinant(dag: &mut Dag, rows: &[&[Id]], columns: &[usize]) -> Id {
+    let Some((first, rest)) = rows.split_first() else {
+        return dag.integer(1);
+    };
+    let mut sum = dag.integer(0);
+    for (position, &column) in columns.iter().enumerate() {
+        let entry = match first.get(column) {
+            Some(&entry) if !dag.is_zero(entry) => entry,
+            _ => continue,
+        };
+        let mut others = columns.to_vec();
+        others.remove(position);
+        let minor = determinant(dag, rest, &others);
+        let term = dag.mul(entry, minor);
+        sum = if position % 2 == 0 {
+            dag.add(sum, term)
+        } else {
+            dag.sub(sum, term)
+        };
+    }
+    sum
 }

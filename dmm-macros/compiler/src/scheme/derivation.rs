@@ -2,16 +2,19 @@
 //! first strategy that fits, and the proofs of what was derived.
 
 use super::strategy::{Context, choose, midpoint};
-use super::{RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
-use crate::algebra::{Dag, Id, Name, differentiate, divided_difference, gradient, jacobian};
+use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
+use crate::algebra::{
+    Dag, Id, Name, differentiate, divided_difference, gradient, is_proved_zero, jacobian,
+};
 use crate::diagnostics::Diagnostics;
-use crate::model::Model;
+use crate::diagnostics::catalogue::scheme as codes;
+use crate::model::{Model, Region};
 
 /// Derives the scheme of `model`. What cannot be derived, and an identity that fails, is
 /// reported, and then there is no scheme.
 pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme> {
     let states = model.state_names();
-    let interfaces = model
+    let interfaces: Vec<SwitchingScheme> = model
         .interfaces
         .iter()
         .map(|interface| SwitchingScheme {
@@ -23,11 +26,11 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
             gradient: gradient(&mut model.dag, interface.switching_function, &states),
         })
         .collect();
-    let before = diagnostics.messages().len();
+    let before = diagnostics.len();
     let regions = (0..model.regions.len())
-        .map(|region| derive_region(&mut model, region, &states, diagnostics))
+        .map(|region| derive_region(&mut model, region, &states, &interfaces, diagnostics))
         .collect();
-    (diagnostics.messages().len() == before).then_some(Scheme {
+    (diagnostics.len() == before).then_some(Scheme {
         model,
         interfaces,
         regions,
@@ -38,6 +41,7 @@ fn derive_region(
     model: &mut Model,
     region: usize,
     states: &[Name],
+    interfaces: &[SwitchingScheme],
     diagnostics: &mut Diagnostics,
 ) -> RegionScheme {
     let dag = &mut model.dag;
@@ -67,14 +71,20 @@ fn derive_region(
         time_derivative: &time_derivative,
         discrete_multiplier: &discrete_multiplier,
         discrete_time_derivative: &discrete_time_derivative,
+        canonical: &region.canonical,
     };
     let (strategy, refusals) = choose(dag, &context);
     let proofs = proofs::prove(dag, &context, &psi, &strategy, &mut |identity, at| {
-        diagnostics.error(
+        diagnostics.report(
+            codes::IDENTITY,
             region.ident.span(),
             format!("internal error of the compiler: the derived scheme violates {identity} {at}"),
         );
     });
+    let proofs = Proofs {
+        levels: levels(dag, region, interfaces),
+        ..proofs
+    };
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
     RegionScheme {
         multiplier,
@@ -87,6 +97,25 @@ fn derive_region(
         autonomous,
         proofs,
     }
+}
+
+/// The interfaces of the region that its flow never crosses: ∂ₜg + ∇g·f = 0 is proved.
+fn levels(dag: &mut Dag, region: &Region, interfaces: &[SwitchingScheme]) -> Vec<usize> {
+    let mut levels = Vec::new();
+    for side in &region.sides {
+        let Some(switching) = interfaces.get(side.interface) else {
+            continue;
+        };
+        let mut terms = vec![switching.time_derivative];
+        for (&slope, &component) in switching.gradient.iter().zip(&region.field) {
+            terms.push(dag.mul(slope, component));
+        }
+        let rate = dag.sum(terms);
+        if is_proved_zero(dag, rate) {
+            levels.push(side.interface);
+        }
+    }
+    levels
 }
 
 /// Λ^τ and ∂ₜ^τψ: the symmetric divided differences of ψ by every state and by the time.

@@ -12,6 +12,7 @@
 //! first [`Strategy`] that fits, and what was derived is proved before it is handed on.
 
 mod derivation;
+mod findings;
 mod proofs;
 mod solvability;
 mod strategy;
@@ -19,6 +20,7 @@ mod strategy;
 use crate::algebra::{Dag, Id};
 use crate::model::Model;
 pub use derivation::derive;
+pub use findings::{Finding, Grounds, findings};
 pub use proofs::{Evidence, Proofs};
 pub use solvability::Solvability;
 pub use strategy::{Explicit, Obstacle, Pairing, Refusal, Strategy};

@@ -26,7 +26,7 @@ pub enum Evidence {
 }
 
 /// The identities of a scheme, and what is known of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Proofs {
     /// Λ^τ Δx + ∂ₜ^τψ Δt = Δψ
     pub telescopes: Evidence,
@@ -34,6 +34,9 @@ pub struct Proofs {
     pub conserves: Evidence,
     /// f^τ(t, x, t, x) = f(t, x)
     pub consistent: Evidence,
+    /// The interfaces of the region whose switching function is proved to be constant along
+    /// its flow, as indices in [`Model::interfaces`].
+    pub levels: Vec<usize>,
 }
 
 /// What is done with an identity that is false: its name and where it fails.
@@ -54,6 +57,7 @@ pub(super) fn prove(
         telescopes: all_zero(dag, &telescopes, "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ", report),
         conserves: all_zero(dag, &conserves, "Λ^τ f^τ + ∂ₜ^τψ = 0", report),
         consistent: all_zero(dag, &consistent, "f^τ(t, x, t, x) = f(t, x)", report),
+        levels: Vec::new(),
     }
 }
 

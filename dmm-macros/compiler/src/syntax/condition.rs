@@ -5,10 +5,11 @@ use syn::{Token, token};
 
 use num_traits::Zero;
 
-use super::expression::{self, Expression, ExpressionKind};
-use super::name;
+use super::expression::{Expression, ExpressionKind};
 use super::{Condition, Relation};
+use super::{formula, name};
 use crate::diagnostics::Diagnostics;
+use crate::diagnostics::catalogue::syntax::{ALTERNATIVES, CONDITION, REGION};
 
 /// The conditions up to the block, separated by `and`; a comma or `&&` does as well.
 /// What is wrong is reported, and parsing goes on at the block.
@@ -22,7 +23,7 @@ pub(super) fn conditions(input: ParseStream<'_>, diagnostics: &mut Diagnostics) 
         }) {
             Ok(condition) => conditions.push(condition),
             Err(error) => {
-                diagnostics.push(error);
+                name::report(diagnostics, error);
                 skip_condition(input);
             }
         }
@@ -42,13 +43,13 @@ fn separator(input: ParseStream<'_>) -> syn::Result<()> {
     } else if input.peek(Token![&&]) {
         input.parse::<Token![&&]>()?;
     } else if name::peek_is(input, "or") || input.peek(Token![||]) {
-        return Err(name::error_here(
-            input,
+        return Err(ALTERNATIVES.error(
+            input.span(),
             "a region is one sign pattern: write a region for each alternative",
         ));
     } else {
-        return Err(name::error_here(
-            input,
+        return Err(REGION.error(
+            input.span(),
             "expected `and` and another condition, or the region's `{ … }`",
         ));
     }
@@ -67,9 +68,18 @@ fn skip_condition(input: ParseStream<'_>) {
 
 /// `interface > 0` or `interface < 0`
 fn condition(input: ParseStream<'_>) -> syn::Result<Condition> {
-    let left = expression::formula(input)?;
+    if input.peek(Token![!]) || name::peek_is(input, "not") {
+        let message = "the other side of an interface is written `< 0` instead of `> 0`";
+        return Err(CONDITION.error(input.span(), message));
+    }
+    let compares = name::group_has(input, &['>']) || name::group_has(input, &['<']);
+    if input.peek(token::Paren) && compares {
+        let message = "a condition stands without parentheses: write `where wall > 0`";
+        return Err(CONDITION.error(input.span(), message));
+    }
+    let left = formula::formula(input)?;
     let relation = relation(input, &left)?;
-    let right = expression::formula(input)?;
+    let right = formula::formula(input)?;
     if let (ExpressionKind::Number { value, .. }, Some(interface)) = (&left.kind, right.as_name())
         && value.is_zero()
     {
@@ -81,14 +91,14 @@ fn condition(input: ParseStream<'_>) -> syn::Result<Condition> {
             "the interface stands on the left: write `{interface} {} 0`",
             flipped.symbol()
         );
-        return Err(left.extent.to(right.extent).error(advice));
+        return Err(CONDITION.error(left.extent.to(right.extent), advice));
     }
     let Some(interface) = left.as_name() else {
         let advice = format!(
             "a region is bounded by named interfaces: declare `interface name = {left};` and write `name {} 0`",
             relation.symbol()
         );
-        return Err(left.extent.error(advice));
+        return Err(CONDITION.error(left.extent, advice));
     };
     if !matches!(&right.kind, ExpressionKind::Number { value, .. } if value.is_zero()) {
         let level = match right.kind {
@@ -98,7 +108,7 @@ fn condition(input: ParseStream<'_>) -> syn::Result<Condition> {
         let advice = format!(
             "an interface is compared with 0: declare its level in it, `interface {interface} = … - {level};`"
         );
-        return Err(right.extent.error(advice));
+        return Err(CONDITION.error(right.extent, advice));
     }
     Ok(Condition {
         interface: interface.clone(),
@@ -110,16 +120,16 @@ fn relation(input: ParseStream<'_>, left: &Expression) -> syn::Result<Relation> 
     let left = left.to_string();
     if input.peek(Token![>=]) || input.peek(Token![<=]) {
         let strict = if input.peek(Token![>=]) { ">" } else { "<" };
-        return Err(name::error_here(
-            input,
+        return Err(CONDITION.error(
+            input.span(),
             format!(
                 "regions are open sets, their boundary belongs to neither: write `{left} {strict} 0`"
             ),
         ));
     }
     if input.peek(Token![==]) || input.peek(Token![=]) || input.peek(Token![!=]) {
-        return Err(name::error_here(
-            input,
+        return Err(CONDITION.error(
+            input.span(),
             format!(
                 "a region lies on one side of an interface: write `{left} > 0` or `{left} < 0`"
             ),
@@ -133,8 +143,8 @@ fn relation(input: ParseStream<'_>, left: &Expression) -> syn::Result<Relation> 
         input.parse::<Token![<]>()?;
         return Ok(Relation::Less);
     }
-    Err(name::error_here(
-        input,
+    Err(CONDITION.error(
+        input.span(),
         format!("expected `{left} > 0` or `{left} < 0`"),
     ))
 }

@@ -4,6 +4,7 @@ use proc_macro2::Ident;
 use syn::{Attribute, Visibility};
 
 use super::Expression;
+use crate::diagnostics::Extent;
 
 /// `system Name { … }`
 #[derive(Debug, Clone)]
@@ -21,31 +22,57 @@ pub struct Declaration {
 /// One statement, or one of the definitions of a list.
 #[derive(Debug, Clone)]
 pub enum Item {
-    /// `state x, y;`
-    State(Vec<Documented>),
-    /// `param k = 1;`
-    Parameter(Definition),
+    /// `state x, q[3];`
+    State(Vec<Group>),
+    /// `param k = 1;`, `param m[3] = 1;`, `param m[3] = [1, 2, 3];`
+    Parameter(ParameterItem),
     /// `const c = 3/2;`
     Constant(Definition),
     /// `let r = sqrt(x^2 + y^2);`
     Let(Definition),
+    /// `fn V(q) = q^2/2;`
+    Function(FunctionItem),
     /// `interface wall = y;`
     Interface(Definition),
     /// `region above where wall > 0 { … }`
     Region(RegionItem),
-    /// `der(x) = y;`
+    /// `der(x) = y;`, `der(q[i]) = p[i];`
     Derivative(Derivative),
-    /// `conserved energy = y^2/2;`
-    Conserved(Definition),
+    /// `hamiltonian H = p^2/2 + V(q) in (q, p);`
+    Hamiltonian(HamiltonianItem),
+    /// `conserved energy = y^2/2;`, `assume conserved energy = …;`
+    Conserved(ConservedItem),
+    /// `for i in 0..3 { … }`
+    For(ForItem),
 }
 
-/// A name with its documentation.
+/// A name with its documentation, and the number of its elements if it is a group `q[3]`.
 #[derive(Debug, Clone)]
-pub struct Documented {
+pub struct Group {
     /// Documentation comments.
     pub attributes: Vec<Attribute>,
     /// The name.
     pub ident: Ident,
+    /// The number of elements; nothing for a scalar.
+    pub length: Option<Expression>,
+}
+
+/// A parameter or a group of parameters.
+#[derive(Debug, Clone)]
+pub struct ParameterItem {
+    /// Its name and length.
+    pub group: Group,
+    /// The defaults: one for all, or one an element.
+    pub defaults: Defaults,
+}
+
+/// The defaults of a parameter or of a group of them.
+#[derive(Debug, Clone)]
+pub enum Defaults {
+    /// `= formula`: of the parameter, or of every element alike.
+    Same(Expression),
+    /// `= [formula, formula]`: an element each. Only a group has it.
+    Each(Vec<Expression>, Extent),
 }
 
 /// `name = formula`
@@ -59,15 +86,73 @@ pub struct Definition {
     pub formula: Expression,
 }
 
-/// `der(state) = formula`
+/// `fn name(arguments) = formula`. Arguments may be used as indices too.
+#[derive(Debug, Clone)]
+pub struct FunctionItem {
+    /// The function's name and formula.
+    pub definition: Definition,
+    /// The names of its arguments, one at least.
+    pub arguments: Vec<Ident>,
+}
+
+/// A state, or an element of a group of them: `x`, `q[i+1]`.
+#[derive(Debug, Clone)]
+pub struct Target {
+    /// The name.
+    pub ident: Ident,
+    /// The index; nothing for a scalar, and where the whole group is meant.
+    pub index: Option<Expression>,
+    /// Where it stands.
+    pub extent: Extent,
+}
+
+/// `der(target) = formula`
 #[derive(Debug, Clone)]
 pub struct Derivative {
     /// Documentation comments.
     pub attributes: Vec<Attribute>,
     /// The state whose rate is given.
-    pub state: Ident,
+    pub target: Target,
     /// Its rate.
     pub formula: Expression,
+}
+
+/// `hamiltonian H = formula in (q, p), …`: q̇ = ∂H/∂p, ṗ = −∂H/∂q.
+#[derive(Debug, Clone)]
+pub struct HamiltonianItem {
+    /// The name and formula of H.
+    pub definition: Definition,
+    /// The canonical pairs (q, p): states, elements, or whole groups of the same length.
+    pub pairs: Vec<(Target, Target)>,
+}
+
+/// `conserved name = formula`
+#[derive(Debug, Clone)]
+pub struct ConservedItem {
+    /// The name and formula of ψ.
+    pub definition: Definition,
+    /// Whether it is written `assume conserved`: accepted even if it cannot be proved.
+    pub assumed: bool,
+}
+
+/// `for i in start..end { … }`
+#[derive(Debug, Clone)]
+pub struct ForItem {
+    /// The name that counts.
+    pub variable: Ident,
+    /// What it counts through.
+    pub range: Range,
+    /// `der`, `conserved` and `for` items.
+    pub items: Vec<Item>,
+}
+
+/// `start..end`: the integers from `start` up to and without `end`.
+#[derive(Debug, Clone)]
+pub struct Range {
+    /// The first.
+    pub start: Expression,
+    /// One more than the last.
+    pub end: Expression,
 }
 
 /// `region name where … { … }`
@@ -79,7 +164,7 @@ pub struct RegionItem {
     pub ident: Ident,
     /// The sign pattern.
     pub conditions: Vec<Condition>,
-    /// Its `let`, `der` and `conserved` items.
+    /// Its items: everything but `state`, `param`, `const`, `fn`, `interface` and `region`.
     pub items: Vec<Item>,
 }
 

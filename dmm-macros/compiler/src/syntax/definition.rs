@@ -4,63 +4,57 @@ use proc_macro2::Ident;
 use syn::parse::ParseStream;
 use syn::{Attribute, Token, parenthesized, token};
 
-use super::expression::{self, Expression};
-use super::{Definition, Derivative, Documented};
-use super::{documentation, mistake, name};
+use super::{Definition, Derivative, Expression, Target};
+use super::{documentation, formula, group, mistake, name};
+use crate::diagnostics::catalogue::syntax::{
+    ASSUME, DERIVATIVE, EQUALS, FUNCTION, GROUP, NAME, NOT_YET, ONE_DEFINITION, SEMICOLON, TYPE,
+    UNEXPECTED,
+};
 use crate::diagnostics::{Diagnostics, Extent};
-
-/// `x, y;`
-pub(super) fn states(
-    input: ParseStream<'_>,
-    attributes: Vec<Attribute>,
-    diagnostics: &mut Diagnostics,
-) -> syn::Result<Vec<Documented>> {
-    let mut states = Vec::new();
-    loop {
-        let attributes = joined(&attributes, documentation(input, diagnostics)?);
-        let ident = name::declared(input)?;
-        if input.peek(Token![=]) {
-            return Err(name::error_here(
-                input,
-                format!(
-                    "a state has no value here: the initial state is given to the integrator; write `state {ident};`"
-                ),
-            ));
-        }
-        no_type(input, &ident)?;
-        let place = Extent::from(&ident);
-        states.push(Documented { attributes, ident });
-        if !comma(input, place, "state")? {
-            return Ok(states);
-        }
-    }
-}
 
 /// `name = formula, name = formula;`
 pub(super) fn definitions(
     input: ParseStream<'_>,
     keyword: &str,
-    attributes: Vec<Attribute>,
+    attributes: &[Attribute],
     diagnostics: &mut Diagnostics,
-) -> syn::Result<Vec<Definition>> {
-    let mut definitions = Vec::new();
-    loop {
-        let attributes = joined(&attributes, documentation(input, diagnostics)?);
+) -> Vec<Definition> {
+    let mut definitions: Vec<Definition> = Vec::new();
+    list(input, keyword, diagnostics, |diagnostics| {
+        let attributes = joined(attributes, documentation(input, diagnostics)?);
+        mistake::refuse_decimal_comma(input, definitions.last().map(|last| &last.formula))?;
         let ident = name::declared(input)?;
-        if keyword == "param" && (input.peek(Token![;]) || input.peek(Token![,])) {
-            let message = format!("a parameter has a default: write `param {ident} = 1.0;`");
-            return Err(syn::Error::new(ident.span(), message));
-        }
         let formula = defined(input, keyword, &ident)?;
+        after_formula(input, &formula, true)?;
         let place = formula.extent;
-        let more = after_formula(input, &formula, true)?;
         definitions.push(Definition {
             attributes,
             ident,
             formula,
         });
-        if !more || !comma(input, place, keyword)? {
-            return Ok(definitions);
+        Ok(place)
+    });
+    definitions
+}
+
+/// The elements of a list up to its `;`. An error loses what is left of its element.
+pub(super) fn list(
+    input: ParseStream<'_>,
+    what: &str,
+    diagnostics: &mut Diagnostics,
+    mut element: impl FnMut(&mut Diagnostics) -> syn::Result<Extent>,
+) {
+    loop {
+        let more = element(diagnostics).and_then(|place| comma(input, place, what));
+        match more {
+            Ok(true) => {}
+            Ok(false) => return,
+            Err(error) => {
+                name::report(diagnostics, error);
+                if !name::recover_in_list(input) {
+                    return;
+                }
+            }
         }
     }
 }
@@ -74,16 +68,13 @@ pub(super) fn interface(
     let formula = defined(input, "interface", &ident)?;
     if input.peek(Token![,]) {
         input.parse::<Token![,]>()?;
-        if name::peek_is(input, "sliding") {
-            return Err(name::error_here(
-                input,
-                "sliding is not supported yet: a trajectory crosses an interface or stops with an error",
-            ));
-        }
-        return Err(name::error_here(
-            input,
-            "expected `;`: each interface has an `interface` item of its own",
-        ));
+        return Err(if name::peek_is(input, "sliding") {
+            let message = "sliding is not supported yet: a trajectory crosses an interface or stops with an error";
+            NOT_YET.error(input.span(), message)
+        } else {
+            let message = "expected `;`: each interface has an `interface` item of its own";
+            ONE_DEFINITION.error(input.span(), message)
+        });
     }
     after_formula(input, &formula, false)?;
     Ok(Definition {
@@ -98,8 +89,21 @@ pub(super) fn conserved(
     input: ParseStream<'_>,
     attributes: Vec<Attribute>,
 ) -> syn::Result<Definition> {
+    if name::peek_is(input, "assume") {
+        let message = "write `assume conserved name = …;`";
+        name::skip_one(input);
+        return Err(ASSUME.error(input.span(), message));
+    }
+    if name::peek_word(input).is_none() {
+        let message = "a conserved quantity has a name: write `conserved name = …;`";
+        return Err(NAME.error(input.span(), message));
+    }
     let ident = name::declared(input)?;
     let formula = defined(input, "conserved", &ident)?;
+    if input.peek(Token![=]) && !input.peek(Token![==]) {
+        let message = "the value of a conserved quantity follows from the initial state: leave out what begins with this `=`";
+        return Err(UNEXPECTED.error(input.span(), message));
+    }
     after_formula(input, &formula, false)?;
     Ok(Definition {
         attributes,
@@ -115,65 +119,107 @@ pub(super) fn derivative(
 ) -> syn::Result<Derivative> {
     if !input.peek(token::Paren) {
         return Err(match name::peek_word(input) {
-            Some(state) => syn::Error::new(
-                state.span(),
-                format!("write `der({state}) = …;` with parentheses"),
-            ),
-            None => name::error_here(input, "expected `der(x) = …;`"),
+            Some(state) => {
+                let message = format!("write `der({state}) = …;` with parentheses");
+                DERIVATIVE.error(&state, message)
+            }
+            None => DERIVATIVE.error(input.span(), "expected `der(x) = …;`"),
         });
     }
-    let content;
-    parenthesized!(content in input);
-    let state = name::declared(&content)?;
-    if !content.is_empty() {
-        return Err(name::error_here(
-            &content,
-            "`der` takes the name of one state, as in `der(x) = …;`",
-        ));
-    }
-    equals(input, &format!("der({state})"))?;
-    let formula = expression::formula(input)?;
+    let target = derivative_of(input)?;
+    equals(input, &format!("der({target})"))?;
+    let formula = formula::formula(input)?;
     after_formula(input, &formula, false)?;
     Ok(Derivative {
         attributes,
-        state,
+        target,
         formula,
     })
 }
 
+/// `(x)` behind `der`
+fn derivative_of(input: ParseStream<'_>) -> syn::Result<Target> {
+    let content;
+    let parentheses = parenthesized!(content in input);
+    if name::peek_is(&content, "der") && content.peek2(token::Paren) {
+        name::skip_one(&content);
+        let inner;
+        parenthesized!(inner in content);
+        let state = name::peek_word(&inner).map_or("x".to_owned(), |state| state.to_string());
+        let message = format!(
+            "a system is of first order: declare the velocity as a state, as in `der({state}) = v; der(v) = …;`"
+        );
+        name::skip_all(&inner);
+        name::skip_all(&content);
+        let place = Extent::new(parentheses.span.open(), parentheses.span.close());
+        return Err(DERIVATIVE.error(place, message));
+    }
+    let is_state = name::peek_word(&content).is_some();
+    let target = is_state.then(|| group::target(&content)).transpose()?;
+    let Some(target) = target.filter(|_| content.is_empty()) else {
+        let message = "`der` takes the name of one state, as in `der(x) = …;`";
+        return Err(DERIVATIVE.error(content.span(), message));
+    };
+    Ok(target)
+}
+
 /// `= formula`
-fn defined(input: ParseStream<'_>, keyword: &str, ident: &Ident) -> syn::Result<Expression> {
+pub(super) fn defined(
+    input: ParseStream<'_>,
+    keyword: &str,
+    ident: &Ident,
+) -> syn::Result<Expression> {
+    if input.peek(token::Bracket) {
+        let message = format!("only states and parameters are groups: `{ident}` has one value");
+        return Err(GROUP.error(input.span(), message));
+    }
+    if input.peek(token::Paren) {
+        let message = format!("a function of arguments is written `fn {ident}(…) = …;`");
+        return Err(FUNCTION.error(ident, message));
+    }
     no_type(input, ident)?;
     equals(input, &format!("{keyword} {ident}"))?;
-    expression::formula(input)
+    formula::formula(input)
 }
 
-fn no_type(input: ParseStream<'_>, ident: &Ident) -> syn::Result<()> {
-    if input.peek(Token![:]) {
-        let message = format!("every quantity is real: leave out the type of `{ident}`");
-        return Err(name::error_here(input, message));
+/// Refuses `: f64` behind a name.
+pub(super) fn no_type(input: ParseStream<'_>, ident: &Ident) -> syn::Result<()> {
+    if !input.peek(Token![:]) || input.peek2(Token![=]) {
+        return Ok(());
     }
-    Ok(())
+    let message = if input.peek2(token::Bracket) {
+        format!("every quantity is real: a group has its length behind the name, `{ident}[3]`")
+    } else {
+        format!("every quantity is real: leave out the type of `{ident}`")
+    };
+    Err(TYPE.error(input.span(), message))
 }
 
-fn equals(input: ParseStream<'_>, what: &str) -> syn::Result<()> {
+/// `=`, behind `what`.
+pub(super) fn equals(input: ParseStream<'_>, what: &str) -> syn::Result<()> {
     if input.peek(Token![==]) {
         let sign: Token![==] = input.parse()?;
-        let [first, second] = sign.spans;
-        return Err(Extent::new(first, second).error(format!("write `{what} = …` with one `=`")));
+        let place = Extent::new(sign.spans[0], sign.spans[1]);
+        return Err(EQUALS.error(place, format!("write `{what} = …` with one `=`")));
     }
-    if !input.peek(Token![=]) {
-        return Err(name::error_here(
-            input,
-            format!("expected `=`, as in `{what} = …;`"),
-        ));
+    if input.peek(Token![=]) {
+        input.parse::<Token![=]>()?;
+        return Ok(());
     }
-    input.parse::<Token![=]>()?;
-    Ok(())
+    let is_assignment = input.peek(Token![+=])
+        || input.peek(Token![-=])
+        || input.peek(Token![*=])
+        || input.peek(Token![/=]);
+    let message = if is_assignment {
+        format!("nothing is added up: write the whole formula, `{what} = …;`")
+    } else {
+        format!("expected `=`, as in `{what} = …;`")
+    };
+    Err(EQUALS.error(input.span(), message))
 }
 
 /// Takes the comma of a list; false at its `;`, which is taken as well.
-fn comma(input: ParseStream<'_>, before: Extent, keyword: &str) -> syn::Result<bool> {
+pub(super) fn comma(input: ParseStream<'_>, before: Extent, what: &str) -> syn::Result<bool> {
     if input.peek(Token![,]) {
         input.parse::<Token![,]>()?;
         if input.peek(Token![;]) {
@@ -187,15 +233,20 @@ fn comma(input: ParseStream<'_>, before: Extent, keyword: &str) -> syn::Result<b
         return Ok(false);
     }
     Err(if input.is_empty() || name::at_item(input) {
-        before.error("a `;` is missing behind this")
+        SEMICOLON.error(before, "a `;` is missing behind this")
     } else {
-        name::error_here(input, format!("expected `,` and another {keyword}, or `;`"))
+        let message = format!("expected `,` and another {what}, or `;`");
+        SEMICOLON.error(input.span(), message)
     })
 }
 
 /// What follows a formula: true if it is the comma of a list, which is left, false if the `;`
 /// of the item, which is left where a list is allowed.
-fn after_formula(input: ParseStream<'_>, formula: &Expression, is_list: bool) -> syn::Result<bool> {
+pub(super) fn after_formula(
+    input: ParseStream<'_>,
+    formula: &Expression,
+    is_list: bool,
+) -> syn::Result<bool> {
     if is_list && (input.peek(Token![,]) || input.peek(Token![;])) {
         return Ok(true);
     }
@@ -203,20 +254,18 @@ fn after_formula(input: ParseStream<'_>, formula: &Expression, is_list: bool) ->
         input.parse::<Token![;]>()?;
         return Ok(false);
     }
-    let only_word_follows = name::at_item(input) && !input.peek(token::Paren);
-    if input.is_empty() || only_word_follows {
-        return Err(formula.extent.error("a `;` is missing behind this formula"));
+    if input.is_empty() || name::at_item(input) {
+        let message = "a `;` is missing behind this formula";
+        return Err(SEMICOLON.error(formula.extent, message));
     }
     if input.peek(Token![,]) {
-        return Err(name::error_here(
-            input,
-            "expected `;`: this item takes one definition",
-        ));
+        let message = "expected `;`: this item takes one definition";
+        return Err(ONE_DEFINITION.error(input.span(), message));
     }
     Err(mistake::unexpected(input, formula))
 }
 
 /// The documentation of a statement belongs to every name of its list.
-fn joined(of_statement: &[Attribute], of_name: Vec<Attribute>) -> Vec<Attribute> {
+pub(super) fn joined(of_statement: &[Attribute], of_name: Vec<Attribute>) -> Vec<Attribute> {
     of_statement.iter().cloned().chain(of_name).collect()
 }

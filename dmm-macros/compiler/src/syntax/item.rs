@@ -1,14 +1,14 @@
-//! The items of a system and of its regions: which one stands next, and what is wrong if none
-//! does.
+//! The items of a system, its regions and loops: which one stands next.
 
 use proc_macro2::Ident;
 use syn::parse::ParseStream;
 use syn::{Attribute, Token, braced, token};
 
-use super::definition::{conserved, definitions, derivative, interface, states};
-use super::{Definition, Item, RegionItem};
-use super::{condition, documentation, name};
-use crate::diagnostics::{Diagnostics, Extent, closest};
+use super::definition::{conserved, definitions, derivative, interface};
+use super::{ConservedItem, Definition, Item, RegionItem};
+use super::{canonical, condition, documentation, group, name, range, unknown};
+use crate::diagnostics::Diagnostics;
+use crate::diagnostics::catalogue::syntax::{ASSUME, ATTRIBUTE, NAME, NOT_YET, REGION};
 
 /// Where an item stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,10 +17,19 @@ pub(super) enum Place {
     System,
     /// In a region's block.
     Region,
+    /// In as many loops.
+    Loop(usize),
 }
 
-/// The items that a region does not have.
-const SYSTEM_ITEMS: &[&str] = &["state", "param", "const", "interface", "region", "on"];
+impl Place {
+    /// The number of loops around it.
+    pub(super) fn loops(self) -> usize {
+        match self {
+            Self::System | Self::Region => 0,
+            Self::Loop(depth) => depth,
+        }
+    }
+}
 
 /// The items up to the end of a block. What is wrong is reported, and parsing goes on.
 pub(super) fn items(
@@ -32,7 +41,7 @@ pub(super) fn items(
     while !input.is_empty() {
         let before = input.cursor();
         if let Err(error) = item(input, place, &mut items, diagnostics) {
-            diagnostics.push(error);
+            name::report(diagnostics, error);
             name::recover(input);
         }
         if input.cursor() == before {
@@ -50,25 +59,35 @@ fn item(
     diagnostics: &mut Diagnostics,
 ) -> syn::Result<()> {
     if input.peek(Token![#]) && input.peek2(Token![!]) {
-        let error = name::error_here(input, "document an item with `///` in front of it");
+        let error = ATTRIBUTE.error(input.span(), "document an item with `///` in front of it");
         (0..3).for_each(|_| drop(name::skip_one(input)));
         return Err(error);
     }
     let attributes = documentation(input, diagnostics)?;
     let Some(keyword) = name::peek_word(input) else {
-        return Err(name::error_here(input, expected(place)));
+        let error = unknown::no_word(input, place);
+        if !input.peek(Token![;]) {
+            // the words behind `#` are no items
+            name::skip_one(input);
+            name::skip_one(input);
+        }
+        return Err(error);
     };
-    let text = keyword.to_string();
-    if place == Place::Region && SYSTEM_ITEMS.contains(&text.as_str()) {
-        let message = format!("`{text}` belongs at the top level of the system, not in a region");
+    if let Some(error) = unknown::misplaced(&keyword, place) {
         name::word(input)?;
-        return Err(syn::Error::new(keyword.span(), message));
+        return Err(error);
     }
-    if !name::ITEMS.contains(&text.as_str()) {
-        return Err(unknown_item(input, &keyword, place));
+    if !name::ITEMS.contains(&keyword.to_string().as_str()) {
+        return Err(unknown::word(input, &keyword, place));
     }
     name::word(input)?;
-    items.extend(behind_keyword(input, &keyword, attributes, diagnostics)?);
+    items.extend(behind_keyword(
+        input,
+        &keyword,
+        attributes,
+        place,
+        diagnostics,
+    )?);
     Ok(())
 }
 
@@ -77,68 +96,49 @@ fn behind_keyword(
     input: ParseStream<'_>,
     keyword: &Ident,
     attributes: Vec<Attribute>,
+    place: Place,
     diagnostics: &mut Diagnostics,
 ) -> syn::Result<Vec<Item>> {
     let text = keyword.to_string();
-    let mut list = |item: fn(Definition) -> Item, attributes| {
-        let definitions = definitions(input, &text, attributes, diagnostics)?;
+    let mut list = |item: fn(Definition) -> Item| {
+        let definitions = definitions(input, &text, &attributes, diagnostics);
         Ok(definitions.into_iter().map(item).collect())
     };
     let item = match text.as_str() {
-        "param" => return list(Item::Parameter, attributes),
-        "const" => return list(Item::Constant, attributes),
-        "let" => return list(Item::Let, attributes),
-        "state" => Item::State(states(input, attributes, diagnostics)?),
+        "const" => return list(Item::Constant),
+        "let" => return list(Item::Let),
+        "param" => return Ok(group::parameters(input, &attributes, diagnostics)),
+        "state" => Item::State(group::states(input, &attributes, diagnostics)),
+        "fn" => Item::Function(canonical::function(input, attributes)?),
         "interface" => Item::Interface(interface(input, attributes)?),
         "region" => Item::Region(region(input, attributes, diagnostics)?),
         "der" => Item::Derivative(derivative(input, attributes)?),
-        "conserved" => Item::Conserved(conserved(input, attributes)?),
+        "hamiltonian" => Item::Hamiltonian(canonical::hamiltonian(input, attributes)?),
+        "conserved" => Item::Conserved(ConservedItem {
+            definition: conserved(input, attributes)?,
+            assumed: false,
+        }),
+        "assume" => Item::Conserved(assumed(input, attributes)?),
+        "for" => Item::For(range::repeat(input, &attributes, place, diagnostics)?),
         _ => {
-            return Err(syn::Error::new(
-                keyword.span(),
-                "state jumps (`on`) are not supported yet: a trajectory is continuous across an interface",
-            ));
+            let message = "state jumps (`on`) are not supported yet: a trajectory is continuous across an interface";
+            return Err(NOT_YET.error(keyword, message));
         }
     };
     Ok(vec![item])
 }
 
-fn expected(place: Place) -> &'static str {
-    match place {
-        Place::System => {
-            "expected `state`, `param`, `const`, `let`, `interface`, `region`, `der` or `conserved`"
-        }
-        Place::Region => "expected `let`, `der` or `conserved`",
+/// `conserved name = ψ;` behind `assume`
+fn assumed(input: ParseStream<'_>, attributes: Vec<Attribute>) -> syn::Result<ConservedItem> {
+    if !name::peek_is(input, "conserved") {
+        let message = "write `assume conserved name = …;`";
+        return Err(ASSUME.error(input.span(), message));
     }
-}
-
-fn unknown_item(input: ParseStream<'_>, keyword: &Ident, place: Place) -> syn::Error {
-    let text = keyword.to_string();
-    let rest = input.fork();
-    name::skip_one(&rest);
-    let message = if rest.peek(Token![=]) {
-        format!("write `let {text} = …;` to name a formula")
-    } else if rest.peek(Token![/]) {
-        "a derivative is written `der(x) = …;`".into()
-    } else {
-        match text.as_str() {
-            "parameter" | "parameters" | "params" => {
-                format!("unknown item `{text}`: write `param`")
-            }
-            "variable" | "variables" | "var" | "states" => {
-                format!("unknown item `{text}`: write `state`")
-            }
-            "invariant" | "conserve" | "conserves" => {
-                format!("unknown item `{text}`: write `conserved`")
-            }
-            "system" => "a system cannot contain another one".into(),
-            _ => match closest(&text, name::ITEMS.iter().copied()) {
-                Some(word) => format!("unknown item `{text}`; did you mean `{word}`?"),
-                None => format!("unknown item `{text}`: {}", expected(place)),
-            },
-        }
-    };
-    syn::Error::new(keyword.span(), message)
+    name::word(input)?;
+    Ok(ConservedItem {
+        definition: conserved(input, attributes)?,
+        assumed: true,
+    })
 }
 
 /// `name where … { … }`
@@ -147,30 +147,44 @@ fn region(
     attributes: Vec<Attribute>,
     diagnostics: &mut Diagnostics,
 ) -> syn::Result<RegionItem> {
-    let ident = name::declared(input)?;
+    if name::peek_is(input, "where") && !input.peek2(token::Brace) {
+        let message = "expected a name, as in `region above where …`";
+        return Err(NAME.error(input.span(), message));
+    }
+    let ident = name::declared_or_reported(input, diagnostics)?;
     let mut conditions = Vec::new();
     if name::peek_is(input, "where") {
         let word = name::word(input)?;
-        let before = diagnostics.len();
-        conditions = condition::conditions(input, diagnostics);
-        if conditions.is_empty() && diagnostics.len() == before {
-            diagnostics.error(word.span(), "expected a condition, as in `where wall > 0`");
+        if input.is_empty() || input.peek(token::Brace) || input.peek(Token![;]) {
+            let message = "expected a condition, as in `where wall > 0`";
+            diagnostics.report(REGION, word.span(), message);
         }
+        conditions = condition::conditions(input, diagnostics);
     }
-    if !input.peek(token::Brace) {
-        return Err(if input.peek(Token![;]) || input.is_empty() {
-            Extent::from(&ident).error("a region has a block `{ … }` with its `der` items")
-        } else {
-            name::error_here(input, "expected `where …` or the region's block `{ … }`")
-        });
-    }
-    let body;
-    braced!(body in input);
-    let items = items(&body, Place::Region, diagnostics);
-    Ok(RegionItem {
+    let mut region = RegionItem {
         attributes,
         ident,
         conditions,
-        items,
-    })
+        items: Vec::new(),
+    };
+    if !input.peek(token::Brace) {
+        name::report(diagnostics, no_block(input, &region.ident));
+        // the name is kept: others refer to it
+        name::recover(input);
+        return Ok(region);
+    }
+    let body;
+    braced!(body in input);
+    region.items = items(&body, Place::Region, diagnostics);
+    Ok(region)
+}
+
+/// The error where the block of the region `ident` should stand.
+fn no_block(input: ParseStream<'_>, ident: &Ident) -> syn::Error {
+    if input.peek(Token![;]) || input.is_empty() {
+        REGION.error(ident, "a region has a block `{ … }` with its `der` items")
+    } else {
+        let message = "expected `where …` or the region's block `{ … }`";
+        REGION.error(input.span(), message)
+    }
 }

@@ -2,12 +2,16 @@
 
 use proc_macro2::Ident;
 use syn::parse::ParseStream;
-use syn::{Lit, Token, token};
+use syn::{Lit, LitInt, Token, token};
 
-use super::name;
-use super::{Expression, ExpressionKind};
+use super::{Expression, ExpressionKind, Operator};
+use super::{name, number};
 use crate::algebra::Function;
-use crate::diagnostics::Extent;
+use crate::diagnostics::catalogue::syntax::{
+    BRANCH, COMMENT, EQUALS, GROUP, HAMILTONIAN, INDEX, METHOD, NUMBER, OPERAND, OPERATOR, POWER,
+    RANGE, SEMICOLON, TYPE, UNEXPECTED,
+};
+use crate::diagnostics::{Code, Extent};
 
 /// `x**2`
 pub(super) fn refuse_double_star(input: ParseStream<'_>) -> syn::Result<()> {
@@ -16,62 +20,248 @@ pub(super) fn refuse_double_star(input: ParseStream<'_>) -> syn::Result<()> {
     }
     let first: Token![*] = input.parse()?;
     let second: Token![*] = input.parse()?;
-    Err(Extent::new(first.span, second.span).error("power is written `^`, as in `x^2`"))
+    let place = Extent::new(first.span, second.span);
+    Err(POWER.error(place, "power is written `^`, as in `x^2`"))
 }
 
-/// `x.powi(2)`, `x.sqrt()`, `self.k`
+/// `x.powi(2)`, `x.sqrt()`, `self.k`, `q.0`
 pub(super) fn refuse_method(input: ParseStream<'_>, receiver: &Expression) -> syn::Result<()> {
-    if !input.peek(Token![.]) {
+    if !input.peek(Token![.]) || input.peek(Token![..]) {
         return Ok(());
     }
     let dot: Token![.] = input.parse()?;
+    let base = receiver.to_string();
     let Some(method) = name::peek_word(input) else {
-        return Err(syn::Error::new(dot.span, "unexpected `.` in a formula"));
+        return Err(match input.parse::<Lit>() {
+            Ok(Lit::Int(index)) if receiver.as_name().is_some() => {
+                let place = receiver.extent.to(Extent::from(dot.span));
+                let message = format!("an element of a group is written `{base}[{index}]`");
+                INDEX.error(place, message)
+            }
+            _ => UNEXPECTED.error(dot.span, "unexpected `.` in a formula"),
+        });
     };
     let place = receiver.extent.to(&method);
-    let base = receiver.to_string();
     let receiver = receiver.inside_parentheses().to_string();
-    Err(place.error(match method.to_string().as_str() {
-        "powi" | "powf" | "pow" => format!("power is written `^`, as in `{base}^2`"),
-        "recip" => format!("write `1/{base}`"),
-        other if other.parse::<Function>().is_ok_and(Function::is_declarable) => {
-            format!("functions are not methods here: write `{other}({receiver})`")
+    let (code, message) = about_method(&method.to_string(), &base, &receiver);
+    Err(code.error(place, message))
+}
+
+fn about_method(method: &str, base: &str, receiver: &str) -> (Code, String) {
+    match method {
+        "powi" | "powf" | "pow" => (POWER, format!("power is written `^`, as in `{base}^2`")),
+        "recip" => (METHOD, format!("write `1/{base}`")),
+        "abs" | "signum" | "min" | "max" | "clamp" => {
+            let message = format!(
+                "`{method}` is not smooth: declare an `interface` where it switches and a `region` on each side"
+            );
+            (BRANCH, message)
         }
-        "abs" | "signum" | "min" | "max" => format!(
-            "`{method}` is not smooth: declare an `interface` where it switches and a `region` on each side"
+        "step_by" | "rev" => {
+            let message = "a range counts up by one: use a formula of the index, such as `q[2*i]`";
+            (RANGE, message.into())
+        }
+        "len" => {
+            let message =
+                format!("declare the number of elements of `{receiver}` as a `const` and use that");
+            (METHOD, message)
+        }
+        "sum" => (
+            METHOD,
+            "a sum is written `sum(i in 0..n, term)`".to_string(),
         ),
-        _ if receiver == "self" => format!("parameters are called by their name: write `{method}`"),
-        _ => "formulas have neither methods nor fields".to_string(),
-    }))
+        function
+            if function
+                .parse::<Function>()
+                .is_ok_and(Function::is_declarable) =>
+        {
+            let message = format!("functions are not methods here: write `{method}({receiver})`");
+            (METHOD, message)
+        }
+        _ if receiver == "self" => {
+            let message = format!("parameters are called by their name: write `{method}`");
+            (METHOD, message)
+        }
+        _ => (
+            METHOD,
+            "formulas have neither methods nor fields".to_string(),
+        ),
+    }
+}
+
+/// `[0]` behind something that is not a group's name.
+pub(super) fn refuse_index(input: ParseStream<'_>, found: &Expression) -> syn::Result<()> {
+    if !input.peek(token::Bracket) {
+        return Ok(());
+    }
+    let message = "only a group has elements, and its name stands in front of the index: `q[0]`";
+    Err(INDEX.error(found.extent.to(input.span()), message))
+}
+
+/// `sqrt[x]`
+pub(super) fn refuse_function_index(ident: &Ident) -> syn::Result<()> {
+    match ident.to_string().parse::<Function>() {
+        Ok(_) => Err(argument_of(ident)),
+        Err(_) => Ok(()),
+    }
+}
+
+fn argument_of(function: &Ident) -> syn::Error {
+    let advice =
+        format!("the argument of `{function}` stands in parentheses, as in `{function}(x)`");
+    OPERATOR.error(function, advice)
+}
+
+/// `q[1..3]`
+pub(super) fn slice(place: Extent, group: &Ident) -> syn::Error {
+    let message = format!(
+        "an index is one number: write `{group}[i]` in `sum(i in …, …)` or `for i in … {{ … }}`"
+    );
+    INDEX.error(place, message)
 }
 
 /// The error where an operand should stand.
 pub(super) fn no_operand(input: ParseStream<'_>) -> syn::Error {
-    let message = if input.is_empty() || input.peek(Token![;]) {
-        "the formula ends where a number, a name or a function is expected"
+    let (code, message) = if input.is_empty() || input.peek(Token![;]) {
+        (
+            OPERAND,
+            "the formula ends where a number, a name or a function is expected",
+        )
     } else if input.peek(Token![+]) {
-        "there is no unary plus: leave it out"
+        (OPERAND, "there is no unary plus: leave it out")
+    } else if input.peek(Token![..]) {
+        (RANGE, "a range has a start and an end: write `0..n`")
+    } else if input.peek(Token![.]) {
+        return leading_point(input);
+    } else if input.peek(token::Bracket) {
+        (
+            GROUP,
+            "a list stands only as the defaults of a group: `param m[3] = [1, 2, 3];`",
+        )
+    } else if input.peek(token::Brace) {
+        (
+            OPERAND,
+            "a formula has no block: name parts of it with `let`",
+        )
+    } else if input.peek(Token![|]) || input.peek(Token![||]) {
+        (
+            BRANCH,
+            "the absolute value is not smooth: declare an `interface` where it switches and a `region` on each side",
+        )
+    } else if input.peek(Token![=]) {
+        (EQUALS, "a definition has one `=`")
     } else {
-        "expected a number, a name or a function"
+        (OPERAND, "expected a number, a name or a function")
     };
-    name::error_here(input, message)
+    code.error(input.span(), message)
+}
+
+/// `.5`
+fn leading_point(input: ParseStream<'_>) -> syn::Error {
+    let rest = input.fork();
+    name::skip_one(&rest);
+    let message = match rest.parse::<Lit>() {
+        Ok(digits) => format!(
+            "a number has a digit in front of its point: write `0.{}`",
+            number::literal_text(&digits)
+        ),
+        Err(_) => "unexpected `.` in a formula".into(),
+    };
+    OPERAND.error(input.span(), message)
+}
+
+/// `9,81`: a number behind the comma of a list, in which `before` is the last formula.
+pub(super) fn refuse_decimal_comma(
+    input: ParseStream<'_>,
+    before: Option<&Expression>,
+) -> syn::Result<()> {
+    if let Some(whole) = before
+        && matches!(whole.kind, ExpressionKind::Number { .. })
+        && let Ok(decimals) = input.fork().parse::<LitInt>()
+    {
+        let place = whole.extent.to(decimals.span());
+        let message = format!("decimals stand behind a point: write `{whole}.{decimals}`");
+        return Err(NUMBER.error(place, message));
+    }
+    Ok(())
 }
 
 /// The error on a token that cannot go on the formula `before`.
 pub(super) fn unexpected(input: ParseStream<'_>, before: &Expression) -> syn::Error {
+    if let Some(word) = name::peek_word(input)
+        && let Some((code, advice)) = unexpected_word(&word.to_string())
+    {
+        return code.error(&word, advice);
+    }
     let operand_follows =
         input.peek(Lit) || input.peek(token::Paren) || name::peek_word(input).is_some();
     if !operand_follows {
-        return name::error_here(input, unexpected_sign(input));
+        let (code, message) = unexpected_sign(input);
+        return code.error(input.span(), message);
     }
     if let Some(function) = last_name(before)
         && function.to_string().parse::<Function>().is_ok()
     {
-        let advice =
-            format!("the argument of `{function}` stands in parentheses, as in `{function}(x)`");
-        return syn::Error::new(function.span(), advice);
+        return argument_of(function);
     }
-    name::error_here(input, "missing operator: a product is written `a*b`")
+    if let Some(power) = power_of_function(before) {
+        return OPERATOR.error(before.extent.to(input.span()), power);
+    }
+    let message = match (last_name(before), name::peek_word(input)) {
+        (Some(left), Some(right)) => format!("missing operator: write `{left}*{right}`"),
+        _ => "missing operator: a product is written `a*b`".to_owned(),
+    };
+    OPERATOR.error(input.span(), message)
+}
+
+/// `sin^2` in front of its argument.
+fn power_of_function(before: &Expression) -> Option<String> {
+    let factor = match &before.kind {
+        ExpressionKind::Binary {
+            operator: Operator::Add | Operator::Subtract | Operator::Multiply | Operator::Divide,
+            right,
+            ..
+        } => return power_of_function(right),
+        ExpressionKind::Negative(operand) => return power_of_function(operand),
+        _ => before,
+    };
+    let ExpressionKind::Binary { left, right, .. } = &factor.kind else {
+        return None;
+    };
+    let function = left.as_name()?;
+    function.to_string().parse::<Function>().ok()?;
+    Some(format!(
+        "the power of a function stands behind its argument: write `{function}(x)^{right}`"
+    ))
+}
+
+/// The error on a token that cannot go on the formula `before` in a list of formulas.
+pub(super) fn unexpected_in_list(input: ParseStream<'_>, before: &Expression) -> syn::Error {
+    if input.peek(Token![;]) {
+        return UNEXPECTED.error(input.span(), "the formulas of a list are separated by `,`");
+    }
+    if input.peek(Lit) {
+        let message = "missing operator, or a `,` between the formulas of a list";
+        return OPERATOR.error(input.span(), message);
+    }
+    unexpected(input, before)
+}
+
+/// What is said about a word behind a complete formula.
+fn unexpected_word(word: &str) -> Option<(Code, &'static str)> {
+    Some(match word {
+        "as" => (TYPE, "every quantity is real: leave out the conversion"),
+        "in" => (
+            HAMILTONIAN,
+            "only a `hamiltonian` has canonical pairs `in (q, p)`",
+        ),
+        "mod" => (OPERATOR, "the remainder is written `%`, as in `q[i % n]`"),
+        "if" | "else" | "when" | "where" => (
+            BRANCH,
+            "formulas have no branches: declare an `interface` and a `region` on each side of it",
+        ),
+        _ => return None,
+    })
 }
 
 fn last_name(expression: &Expression) -> Option<&Ident> {
@@ -83,18 +273,47 @@ fn last_name(expression: &Expression) -> Option<&Ident> {
     }
 }
 
-fn unexpected_sign(input: ParseStream<'_>) -> &'static str {
+fn unexpected_sign(input: ParseStream<'_>) -> (Code, &'static str) {
     if input.peek(Token![==]) || input.peek(Token![=]) {
-        "a formula ends before `=`; is a `;` missing in front of this item?"
+        (
+            SEMICOLON,
+            "a formula ends before `=`; is a `;` missing in front of this item?",
+        )
     } else if input.peek(Token![<])
         || input.peek(Token![>])
         || input.peek(Token![<=])
         || input.peek(Token![>=])
+        || input.peek(Token![&&])
+        || input.peek(Token![||])
+        || input.peek(Token![!=])
+        || input.peek(Token![?])
     {
-        "formulas have no comparisons: declare an `interface` and a `region` on each side of it"
-    } else if input.peek(Token![%]) {
-        "formulas have no remainder `%`"
+        (
+            BRANCH,
+            "formulas have neither comparisons nor branches: declare an `interface` and a `region` on each side of it",
+        )
+    } else if input.peek(Token![..]) {
+        (
+            RANGE,
+            "a range stands behind the `in` of a loop or a sum: `for i in 0..n`, `sum(i in 0..n, …)`",
+        )
+    } else if input.peek(Token![#]) {
+        (COMMENT, "a comment is written `// …`")
+    } else if input.peek(Token![+=])
+        || input.peek(Token![-=])
+        || input.peek(Token![*=])
+        || input.peek(Token![/=])
+        || input.peek(Token![^=])
+        || input.peek(Token![%=])
+    {
+        (UNEXPECTED, "a formula has no assignments")
+    } else if input.peek(Token![!]) {
+        (UNEXPECTED, "there is no factorial: write the number")
+    } else if input.peek(Token![,]) {
+        (UNEXPECTED, "a `,` separates the arguments of a function")
+    } else if input.peek(token::Brace) {
+        (UNEXPECTED, "a formula has no block; is a `;` missing?")
     } else {
-        "unexpected token in a formula"
+        (UNEXPECTED, "unexpected token in a formula")
     }
 }

@@ -5,104 +5,152 @@
 //!
 //! ```text
 //! system    = "system" Name "{" item* "}"
-//! item      = "state" name ("," name)* ";"
-//!           | "param" name "=" formula ("," name "=" formula)* ";"
+//! item      = "state" group ("," group)* ";"
+//!           | "param" group "=" default ("," group "=" default)* ";"
 //!           | ("const" | "let") name "=" formula ("," name "=" formula)* ";"
+//!           | "fn" name "(" name ("," name)* ")" "=" formula ";"
 //!           | "interface" name "=" formula ";"
 //!           | "region" name ["where" side ("and" side)*] "{" item* "}"
-//!           | "der" "(" name ")" "=" formula ";"
-//!           | "conserved" name "=" formula ";"
+//!           | "der" "(" target ")" "=" formula ";"
+//!           | "hamiltonian" name "=" formula "in" pair ("," pair)* ";"
+//!           | ["assume"] "conserved" name "=" formula ";"
+//!           | "for" name "in" range "{" item* "}"
+//! group     = name ["[" formula "]"]
+//! default   = formula | "[" formula ("," formula)* "]"
 //! side      = name (">" | "<") "0"
+//! target    = name ["[" formula "]"]
+//! pair      = "(" target "," target ")"
+//! range     = formula ".." formula
 //!
 //! formula   = product (("+" | "-") product)*
-//! product   = signed (("*" | "/") signed)*
+//! product   = signed (("*" | "/" | "%") signed)*
 //! signed    = "-" signed | power
 //! power     = operand ["^" exponent]          right-associative: x^y^z = x^(y^z)
 //! exponent  = "-" exponent | power            so that 2^-1 needs no parentheses
-//! operand   = number | name | name "(" formula ("," formula)* ")" | "(" formula ")"
+//! operand   = number | name | name "[" formula "]" | name "(" formula ("," formula)* ")"
+//!           | "sum" "(" name "in" range "," formula ")" | "(" formula ")"
 //! ```
 //!
-//! Documentation comments may precede the system, every item, and every name of a list. An
-//! error loses one item: parsing goes on behind its `;` or block, so that all are found.
+//! A region has `let`, `der`, `hamiltonian`, `conserved` and `for` items, a loop `der`,
+//! `conserved` and `for` items.
+//! Documentation comments may precede the system, every item but `for`, and every name of a
+//! list. An error loses one item: parsing goes on behind its `;` or block, so that all are found.
+//! Names of states, parameters and regions are kept even then, for the stub of the declaration.
 
+mod canonical;
 mod condition;
 mod declaration;
 mod definition;
 mod expression;
+mod formula;
+mod group;
 mod item;
 mod mistake;
 mod name;
 mod number;
 mod print;
+mod range;
+mod unknown;
 
 #[cfg(test)]
 mod tests;
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Span, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, Visibility, braced, token};
 
+use crate::diagnostics::catalogue::syntax::{ATTRIBUTE, DEPTH, HEAD, ONE_SYSTEM, SYNTAX};
 use crate::diagnostics::{Diagnostics, Extent};
 pub use declaration::{
-    Condition, Declaration, Definition, Derivative, Documented, Item, RegionItem, Relation,
+    Condition, ConservedItem, Declaration, Defaults, Definition, Derivative, ForItem, FunctionItem,
+    Group, HamiltonianItem, Item, ParameterItem, Range, RegionItem, Relation, Target,
 };
 pub use expression::{Expression, ExpressionKind, Operator};
+pub(crate) use name::is_identifier;
+
+/// Brackets of any kind may be nested this deep. It is more than the grammar can use, and little
+/// enough for the recursive descent into them.
+const DEEPEST_BRACKETS: usize = 128;
 
 /// Parses one `system`. The declaration is there, possibly with items missing, whenever its
 /// head could be read; it is complete if nothing was added to `diagnostics`.
 pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declaration> {
+    if let Some(place) = too_deep(&input) {
+        diagnostics.report(DEPTH, place, "brackets are nested too deeply");
+        return None;
+    }
     let before = diagnostics.len();
-    let mut declaration = None;
-    let outcome = |input: ParseStream<'_>| {
-        declaration = Some(system(input, diagnostics)?);
+    let mut outcome = None;
+    let read = |input: ParseStream<'_>| {
+        outcome = Some(system(input, diagnostics));
+        name::skip_all(input);
         Ok(())
     };
     // An error within parentheses leaves tokens behind, of which syn complains as well: that
     // complaint is not passed on where the reason has been reported.
-    if let Err(error) = outcome.parse2(input)
-        && (declaration.is_none() || diagnostics.len() == before)
-    {
-        diagnostics.push(error);
+    let left_over = read.parse2(input).err();
+    match outcome? {
+        Ok(declaration) => {
+            if let Some(error) = left_over.filter(|_| diagnostics.len() == before) {
+                diagnostics.report(SYNTAX, error.span(), error);
+            }
+            Some(declaration)
+        }
+        Err(error) => {
+            name::report(diagnostics, error);
+            None
+        }
     }
-    declaration
+}
+
+/// The first bracket that is nested too deeply. The search does not recurse.
+fn too_deep(input: &TokenStream) -> Option<Span> {
+    let mut open = vec![input.clone().into_iter()];
+    while let Some(innermost) = open.last_mut() {
+        match innermost.next() {
+            Some(TokenTree::Group(group)) if open.len() > DEEPEST_BRACKETS => {
+                return Some(group.span_open());
+            }
+            Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
+            Some(_) => {}
+            None => drop(open.pop()),
+        }
+    }
+    None
 }
 
 /// `system Name { … }`
 fn system(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<Declaration> {
     const EXPECTED: &str = "expected `system Name { … }`";
     if input.is_empty() {
-        return Err(syn::Error::new(Span::call_site(), EXPECTED));
+        return Err(HEAD.error(Span::call_site(), EXPECTED));
     }
     if input.peek(syn::Token![#]) && input.peek2(syn::Token![!]) {
-        return Err(name::error_here(
-            input,
-            "document the system with `///` in front of it",
-        ));
+        let message = "document the system with `///` in front of it";
+        return Err(ATTRIBUTE.error(input.span(), message));
     }
     let attributes = documentation(input, diagnostics)?;
-    let visibility: Visibility = input.parse()?;
+    let visibility: Visibility = input
+        .parse()
+        .map_err(|error: syn::Error| SYNTAX.error(error.span(), error))?;
     let Some(keyword) = name::peek_word(input) else {
-        return Err(name::error_here(input, EXPECTED));
+        return Err(HEAD.error(input.span(), EXPECTED));
     };
     if keyword != "system" {
-        return Err(syn::Error::new(keyword.span(), EXPECTED));
+        return Err(HEAD.error(&keyword, EXPECTED));
     }
     name::word(input)?;
-    let name = name::declared(input)?;
+    let name = name::declared_type(input)?;
     if !input.peek(token::Brace) {
-        return Err(name::error_here(
-            input,
-            format!("expected `{{` after `system {name}`"),
-        ));
+        let message = format!("expected `{{` after `system {name}`");
+        return Err(HEAD.error(input.span(), message));
     }
     let body;
     braced!(body in input);
     let items = item::items(&body, item::Place::System, diagnostics);
     if !input.is_empty() {
-        diagnostics.error(
-            input.span(),
-            "one `pws!` declares one system; write another `pws!` for the next",
-        );
+        let message = "one `pws!` declares one system; write another `pws!` for the next";
+        diagnostics.report(ONE_SYSTEM, input.span(), message);
         name::skip_all(input);
     }
     Ok(Declaration {
@@ -118,18 +166,21 @@ fn documentation(
     input: ParseStream<'_>,
     diagnostics: &mut Diagnostics,
 ) -> syn::Result<Vec<Attribute>> {
-    let mut documentation = Attribute::parse_outer(input)?;
-    documentation.retain(|attribute| {
+    let mut documentation = Vec::new();
+    while input.peek(syn::Token![#]) && input.peek2(token::Bracket) {
+        documentation.extend(
+            Attribute::parse_outer(input).map_err(|error| SYNTAX.error(error.span(), error))?,
+        );
+    }
+    documentation.retain(|attribute: &Attribute| {
         let is_documentation = attribute.path().is_ident("doc");
         if !is_documentation {
             let place = Extent::new(
                 attribute.pound_token.span,
                 attribute.bracket_token.span.close(),
             );
-            diagnostics.error(
-                place,
-                "only documentation comments (`///`) may stand here; other attributes are not supported",
-            );
+            let message = "only documentation comments (`///`) may stand here; other attributes are not supported";
+            diagnostics.report(ATTRIBUTE, place, message);
         }
         is_documentation
     });

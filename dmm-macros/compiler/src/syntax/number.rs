@@ -5,27 +5,34 @@ use num_traits::{Pow, ToPrimitive};
 use syn::Lit;
 
 use crate::algebra::Rational;
+use crate::diagnostics::Code;
+use crate::diagnostics::catalogue::syntax::{NUMBER, OPERAND, OPERATOR};
 
 /// Decimal exponents beyond this have no double anyway, and their powers of ten are long.
 const LARGEST_EXPONENT: i64 = 400;
 
 /// The exact value of a literal, or what is wrong with it.
-pub(super) fn exact(literal: &Lit) -> Result<Rational, String> {
+pub(super) fn exact(literal: &Lit) -> Result<Rational, (Code, String)> {
     let (digits, suffix) = match literal {
         Lit::Int(number) => (number.base10_digits(), number.suffix()),
         Lit::Float(number) => (number.base10_digits(), number.suffix()),
-        _ => return Err("expected a number, a name or a function".into()),
+        _ => {
+            return Err((OPERAND, "expected a number, a name or a function".into()));
+        }
     };
     let text = literal_text(literal);
     if !suffix.is_empty() {
         return Err(about_suffix(&text, suffix));
     }
     if text.starts_with("0x") || text.starts_with("0o") || text.starts_with("0b") {
-        return Err(format!("numbers are decimal: write `{digits}`"));
+        return Err((NUMBER, format!("numbers are decimal: write `{digits}`")));
     }
     decimal(digits)
         .filter(|value| value.to_f64().is_some_and(f64::is_finite))
-        .ok_or_else(|| format!("`{text}` is beyond the range of floating-point numbers"))
+        .ok_or_else(|| {
+            let message = format!("`{text}` is beyond the range of floating-point numbers");
+            (NUMBER, message)
+        })
 }
 
 /// The literal as it was written.
@@ -37,15 +44,17 @@ pub(super) fn literal_text(literal: &Lit) -> String {
     }
 }
 
-fn about_suffix(text: &str, suffix: &str) -> String {
+fn about_suffix(text: &str, suffix: &str) -> (Code, String) {
     let number = text.strip_suffix(suffix).unwrap_or(text);
     let number = number.trim_end_matches('_');
     let is_type = matches!(suffix.as_bytes(), [b'f' | b'i' | b'u', rest @ ..]
         if rest == b"size" || (!rest.is_empty() && rest.iter().all(u8::is_ascii_digit)));
     if is_type {
-        format!("numbers are exact and have no type: write `{number}`")
+        let message = format!("numbers are exact and have no type: write `{number}`");
+        (NUMBER, message)
     } else {
-        format!("missing operator: write `{number}*{suffix}`")
+        let message = format!("missing operator: write `{number}*{suffix}`");
+        (OPERATOR, message)
     }
 }
 
@@ -75,7 +84,9 @@ mod tests {
 
     fn read(text: &str) -> Result<String, String> {
         let literal: Lit = syn::parse_str(text).map_err(|error| error.to_string())?;
-        exact(&literal).map(|value| value.to_string())
+        exact(&literal)
+            .map(|value| value.to_string())
+            .map_err(|(_, message)| message)
     }
 
     #[test]

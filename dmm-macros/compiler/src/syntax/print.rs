@@ -4,7 +4,10 @@ use std::fmt::{self, Display, Formatter, Write};
 
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, Visibility};
 
-use super::{Condition, Declaration, Definition, Expression, ExpressionKind, Item, Operator};
+use super::{
+    Condition, Declaration, Defaults, Definition, Expression, ExpressionKind, Group, Item,
+    Operator, ParameterItem, Range, Target,
+};
 
 impl Display for Expression {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -36,12 +39,57 @@ impl Display for Expression {
                 _ => write!(f, "{left} {} {right}", operator.symbol()),
             },
             ExpressionKind::Parenthesised(inner) => write!(f, "({inner})"),
+            ExpressionKind::Element { group, index } => write!(f, "{group}[{index}]"),
+            ExpressionKind::Sum {
+                variable,
+                range,
+                term,
+            } => write!(f, "sum({variable} in {range}, {term})"),
         }
     }
 }
 
 fn is_number(expression: &Expression) -> bool {
     matches!(expression.kind, ExpressionKind::Number { .. })
+}
+
+impl Display for Range {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let start = self.start.to_string();
+        // `1...n` would be three dots
+        let space = if start.ends_with('.') { " " } else { "" };
+        write!(f, "{start}{space}..{}", self.end)
+    }
+}
+
+impl Display for Target {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.index {
+            Some(index) => write!(f, "{}[{index}]", self.ident),
+            None => write!(f, "{}", self.ident),
+        }
+    }
+}
+
+impl Display for Group {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.length {
+            Some(length) => write!(f, "{}[{length}]", self.ident),
+            None => write!(f, "{}", self.ident),
+        }
+    }
+}
+
+impl Display for Defaults {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Same(formula) => write!(f, "{formula}"),
+            Self::Each(formulas, _) => {
+                let formulas: Vec<String> = formulas.iter().map(ToString::to_string).collect();
+                write!(f, "[{}]", formulas.join(", "))
+            }
+        }
+    }
 }
 
 impl Display for Condition {
@@ -80,14 +128,44 @@ fn items(f: &mut Formatter<'_>, items: &[Item], indent: &str) -> fmt::Result {
 fn print(f: &mut Formatter<'_>, item: &Item, indent: &str) -> fmt::Result {
     match item {
         Item::State(states) => print_states(f, states, indent),
-        Item::Parameter(item) => definition(f, "param", item, indent),
+        Item::Parameter(item) => parameter(f, item, indent),
         Item::Constant(item) => definition(f, "const", item, indent),
         Item::Let(item) => definition(f, "let", item, indent),
         Item::Interface(item) => definition(f, "interface", item, indent),
-        Item::Conserved(item) => definition(f, "conserved", item, indent),
+        Item::Conserved(item) if item.assumed => {
+            definition(f, "assume conserved", &item.definition, indent)
+        }
+        Item::Conserved(item) => definition(f, "conserved", &item.definition, indent),
+        Item::Function(item) => {
+            documentation(f, &item.definition.attributes, indent)?;
+            let arguments: Vec<String> = item.arguments.iter().map(ToString::to_string).collect();
+            let (name, formula) = (&item.definition.ident, &item.definition.formula);
+            writeln!(
+                f,
+                "{indent}fn {name}({}) = {formula};",
+                arguments.join(", ")
+            )
+        }
+        Item::Hamiltonian(item) => {
+            documentation(f, &item.definition.attributes, indent)?;
+            let pairs: Vec<String> = (item.pairs.iter())
+                .map(|(q, p)| format!("({q}, {p})"))
+                .collect();
+            let (name, formula) = (&item.definition.ident, &item.definition.formula);
+            writeln!(
+                f,
+                "{indent}hamiltonian {name} = {formula} in {};",
+                pairs.join(", ")
+            )
+        }
+        Item::For(item) => {
+            writeln!(f, "{indent}for {} in {} {{", item.variable, item.range)?;
+            items(f, &item.items, &format!("{indent}    "))?;
+            writeln!(f, "{indent}}}")
+        }
         Item::Derivative(item) => {
             documentation(f, &item.attributes, indent)?;
-            writeln!(f, "{indent}der({}) = {};", item.state, item.formula)
+            writeln!(f, "{indent}der({}) = {};", item.target, item.formula)
         }
         Item::Region(region) => {
             documentation(f, &region.attributes, indent)?;
@@ -104,15 +182,20 @@ fn print(f: &mut Formatter<'_>, item: &Item, indent: &str) -> fmt::Result {
 }
 
 /// Undocumented states share a line, documented ones have their own.
-fn print_states(f: &mut Formatter<'_>, states: &[super::Documented], indent: &str) -> fmt::Result {
+fn print_states(f: &mut Formatter<'_>, states: &[Group], indent: &str) -> fmt::Result {
     if states.iter().all(|state| state.attributes.is_empty()) {
-        let names: Vec<String> = states.iter().map(|state| state.ident.to_string()).collect();
+        let names: Vec<String> = states.iter().map(ToString::to_string).collect();
         return writeln!(f, "{indent}state {};", names.join(", "));
     }
     states.iter().try_for_each(|state| {
         documentation(f, &state.attributes, indent)?;
-        writeln!(f, "{indent}state {};", state.ident)
+        writeln!(f, "{indent}state {state};")
     })
+}
+
+fn parameter(f: &mut Formatter<'_>, item: &ParameterItem, indent: &str) -> fmt::Result {
+    documentation(f, &item.group.attributes, indent)?;
+    writeln!(f, "{indent}param {} = {};", item.group, item.defaults)
 }
 
 fn definition(

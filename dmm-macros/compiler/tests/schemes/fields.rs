@@ -34,7 +34,7 @@ fn ends(dag: &mut Dag, name: &str) -> [Id; 3] {
 
 fn all_proved(scheme: &Scheme) -> bool {
     scheme.regions.iter().all(|region| {
-        let proofs = region.proofs;
+        let proofs = &region.proofs;
         [proofs.telescopes, proofs.conserves, proofs.consistent] == [Evidence::Proved; 3]
     })
 }
@@ -213,4 +213,25 @@ fn a_pole_that_f_does_not_have_is_not_used() {
     assert!(matches!(region.strategy, Strategy::MinimalNorm { .. }));
     let obstacle = &region.refusals[0].obstacle;
     assert!(matches!(obstacle, Obstacle::Denominator(_)), "{obstacle:?}");
+}
+
+#[test]
+fn groups_called_as_the_symbols_of_the_compiler_are_kept_apart() {
+    let listing = dmm_compiler::explain(
+        "system Masses {
+            state q[3], p[3];
+            param w[3] = [1, 2, 3];
+            hamiltonian energy = sum(i in 0..3, p[i]^2 / (2 * w[i])) + (q[0] - q[1])^4 / 4
+                + (q[1] - q[2])^4 / 4 in (q, p);
+            conserved momentum = sum(i in 0..3, p[i]);
+        }"
+        .parse()
+        .expect("tokens"),
+    )
+    .expect("a scheme");
+    assert!(!listing.contains("not proved"), "{listing}");
+    assert!(
+        listing.contains("f̄[q[2]] = (p[2]₁ + p[2]₀)/(2*w[2])") || listing.contains("w[i]"),
+        "{listing}"
+    );
 }

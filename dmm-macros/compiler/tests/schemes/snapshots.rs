@@ -14,26 +14,12 @@ fn rust(source: &str) -> String {
     prettyplease::unparse(&file)
 }
 
-macro_rules! snapshots {
-    ($($name:ident: $source:ident,)*) => {
-        $(
-            #[test]
-            fn $name() {
-                assert_snapshot!(concat!(stringify!($name), "_listing"), listing(systems::$source));
-                assert_snapshot!(concat!(stringify!($name), "_rust"), rust(systems::$source));
-            }
-        )*
-    };
-}
-
-snapshots! {
-    harmonic: HARMONIC,
-    elliptic: ELLIPTIC,
-    pendulum: PENDULUM,
-    lotka_volterra: LOTKA_VOLTERRA,
-    damped: DAMPED,
-    rigid_body: RIGID_BODY,
-    kepler: KEPLER,
+/// Those of the problems are with the tests of the workspace; this one has no interface, and
+/// conserved quantities that become dependent.
+#[test]
+fn kepler() {
+    assert_snapshot!("kepler_listing", listing(systems::KEPLER));
+    assert_snapshot!("kepler_rust", rust(systems::KEPLER));
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //! is then zero; that is what [`decide_zero`](super::decide_zero) rests on. The converse does
 //! not hold: the base of a root that is a square has relations that are not seen.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::super::{Function, Name};
 use super::Obstacle;
@@ -42,6 +42,10 @@ pub(super) struct Algebra {
     kinds: Vec<Kind>,
     variables: HashMap<Name, Atom>,
     pub(super) factors: Vec<Polynomial>,
+    /// Variables that are not negative on the [`domain`](super::domain).
+    pub(super) positive: BTreeSet<Atom>,
+    /// Polynomials that are not negative on the domain.
+    pub(super) positive_factors: Vec<Polynomial>,
     pub(super) has_roots: bool,
     has_phases: bool,
     /// How deep reductions of roots are nested just now.
@@ -63,6 +67,8 @@ impl Algebra {
             kinds: Vec::new(),
             variables: HashMap::new(),
             factors: Vec::new(),
+            positive: BTreeSet::new(),
+            positive_factors: Vec::new(),
             has_roots: false,
             has_phases: false,
             depth: 0,

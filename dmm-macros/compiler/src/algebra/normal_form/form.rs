@@ -1,6 +1,8 @@
 //! Expression → normal form, node by node.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+
+use egg::Language;
 
 use super::super::{Dag, Id, Math};
 use super::Obstacle;
@@ -14,26 +16,68 @@ pub(super) fn normal_form(
     dag: &Dag,
     root: Id,
 ) -> Result<Fraction, Obstacle> {
-    let mut forms = Forms {
-        algebra,
-        dag,
-        known: HashMap::new(),
-    };
-    for id in dag.reachable([root]) {
-        let form = forms.node(id)?;
-        forms.known.insert(id, form);
-    }
-    forms.known.remove(&root).ok_or(Obstacle::Undefined)
+    Forms::new(algebra, dag).of(root)
 }
 
-/// The forms of the nodes below a root.
-struct Forms<'a> {
+/// The forms of nodes, each computed once.
+pub(super) struct Forms<'a> {
     algebra: &'a mut Algebra,
     dag: &'a Dag,
     known: HashMap<Id, Fraction>,
 }
 
-impl Forms<'_> {
+impl<'a> Forms<'a> {
+    pub(super) fn new(algebra: &'a mut Algebra, dag: &'a Dag) -> Self {
+        Self {
+            algebra,
+            dag,
+            known: HashMap::new(),
+        }
+    }
+
+    pub(super) fn algebra(&mut self) -> &mut Algebra {
+        self.algebra
+    }
+
+    /// The form of `root`.
+    pub(super) fn of(&mut self, root: Id) -> Result<Fraction, Obstacle> {
+        self.complete(root)?;
+        self.known.get(&root).cloned().ok_or(Obstacle::Undefined)
+    }
+
+    /// The form of 1/`root`.
+    pub(super) fn inverse_of(&mut self, root: Id) -> Result<Fraction, Obstacle> {
+        self.complete(root)?;
+        self.inverse(root)
+    }
+
+    fn complete(&mut self, root: Id) -> Result<(), Obstacle> {
+        if self.known.contains_key(&root) {
+            return Ok(());
+        }
+        for id in self.below(root) {
+            let form = self.node(id)?;
+            self.known.insert(id, form);
+        }
+        Ok(())
+    }
+
+    /// The nodes that `root` is made of and whose forms are not known, children first.
+    fn below(&self, root: Id) -> Vec<Id> {
+        let mut seen: HashSet<Id> = HashSet::from([root]);
+        let mut stack = vec![root];
+        let mut reached = Vec::new();
+        while let Some(id) = stack.pop() {
+            reached.push(id);
+            for &child in self.dag[id].children() {
+                if !self.known.contains_key(&child) && seen.insert(child) {
+                    stack.push(child);
+                }
+            }
+        }
+        reached.sort_unstable();
+        reached
+    }
     /// The form of a node whose children have theirs.
     fn node(&mut self, id: Id) -> Result<Fraction, Obstacle> {
         let of = |id: &Id| known(&self.known, *id);

@@ -1,8 +1,8 @@
 //! Logarithms and powers with constant exponents.
 //!
 //! ln(uv) = ln u + ln v and (uv)^r = u^r v^r need positive u and v. What is known to be positive
-//! wherever it is real (rational numbers, exponentials, roots) is split off; the rest stays
-//! one argument.
+//! wherever it is real (rational numbers, exponentials, roots) or by the
+//! [`domain`](super::domain) is split off; the rest stays one argument.
 
 use super::super::Function;
 use super::Obstacle;
@@ -23,6 +23,11 @@ impl Algebra {
             let atom = self.intern(Kind::Call(Function::Ln, Fraction::number(prime)))?;
             let term = Fraction::atom(atom).scaled(&Coefficient::real(Number::integer(exponent)));
             sum = self.add(&sum, &term)?;
+        }
+        for (base, exponent) in split.assumed {
+            let atom = self.intern(Kind::Call(Function::Ln, base))?;
+            let factor = Coefficient::real(exponent.to_number());
+            sum = self.add(&sum, &Fraction::atom(atom).scaled(&factor))?;
         }
         for power in split.positive {
             let logarithm = match self.kind(power.atom).cloned() {
@@ -79,6 +84,10 @@ impl Algebra {
             let factor = self.root(Fraction::number(prime), exponent)?;
             product = self.mul(&product, &factor)?;
         }
+        for (base, exponent) in split.assumed {
+            let factor = self.root(base, exponent.mul(r)?)?;
+            product = self.mul(&product, &factor)?;
+        }
         for power in split.positive {
             let exponent = power.exponent.mul(r)?;
             let factor = match self.kind(power.atom).cloned() {
@@ -93,7 +102,13 @@ impl Algebra {
             Rest::Inverse(denominator) => {
                 self.rational_power(&denominator, &r.neg()?.to_number())?
             }
-            Rest::Fraction(rest) => self.root(rest, r)?,
+            Rest::Fraction(rest) => match self.evident_root(&rest)? {
+                Some(root) => {
+                    let doubled = r.add(r)?.to_number();
+                    self.rational_power(&root, &doubled)?
+                }
+                None => self.root(rest, r)?,
+            },
         };
         self.mul(&product, &rest)
     }
@@ -138,10 +153,11 @@ impl Algebra {
 
     /// u = content · Π positive powers · rest.
     fn split_positive(&mut self, u: &Fraction) -> Result<Split> {
-        let u = self.cancel(u.clone());
+        let mut u = self.cancel(u.clone());
         if u.is_zero() {
             return Err(Obstacle::Undefined);
         }
+        let assumed = self.split_assumed(&mut u)?;
         let (unit, primitive) = match u.numerator.as_term() {
             Some(term) => (term.clone(), Polynomial::one()),
             None => {
@@ -165,6 +181,7 @@ impl Algebra {
             } else {
                 content.clone()
             },
+            assumed,
             positive: Vec::new(),
             rest: Rest::One,
         };
@@ -203,17 +220,8 @@ impl Algebra {
         Ok(split)
     }
 
-    /// Whether a power is positive wherever it is real.
-    fn is_positive(&self, power: Power) -> bool {
-        power.exponent.needs_positive_base()
-            || matches!(
-                self.kind(power.atom),
-                Some(Kind::Exp(_) | Kind::Pi | Kind::Root(_))
-            )
-    }
-
     /// The positive powers that all terms have in common.
-    fn common_monomial(&self, polynomial: &Polynomial) -> Result<Vec<Power>> {
+    pub(super) fn common_monomial(&self, polynomial: &Polynomial) -> Result<Vec<Power>> {
         let mut monomial = Vec::new();
         for (atom, exponent, _) in polynomial.exponent_ranges() {
             let power = Power { atom, exponent };
@@ -225,9 +233,11 @@ impl Algebra {
     }
 }
 
-/// u = content · Π positive · rest, the content a positive rational.
+/// u = content · Π assumed · Π positive · rest, the content a positive rational.
 struct Split {
     content: Number,
+    /// Powers of polynomials that are not negative on the domain.
+    assumed: Vec<(Fraction, Exponent)>,
     positive: Vec<Power>,
     rest: Rest,
 }

@@ -2,7 +2,9 @@
 //! rewrites, and the text of expressions.
 
 mod decide;
+mod display;
 mod divided;
+mod enclosures;
 mod formula;
 mod functions;
 mod properties;

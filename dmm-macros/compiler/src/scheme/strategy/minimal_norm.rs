@@ -34,10 +34,10 @@ pub(super) fn derive(dag: &mut Dag, context: &Context<'_>) -> Strategy {
     }
 }
 
-/// The variables `letter[1]`, `letter[2]`, …
+/// The variables `letter⟨1⟩`, `letter⟨2⟩`, …: a declaration can have `w[1]`, but no `⟨`.
 pub(in crate::scheme) fn symbols(letter: &str, count: usize) -> Vec<Name> {
     (1..=count)
-        .map(|index| Name::new(&format!("{letter}[{index}]")))
+        .map(|index| Name::new(&format!("{letter}⟨{index}⟩")))
         .collect()
 }
 

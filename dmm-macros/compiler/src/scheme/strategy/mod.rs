@@ -137,6 +137,8 @@ pub(super) struct Context<'a> {
     pub(super) discrete_multiplier: &'a [Vec<Id>],
     /// ∂ₜ^τψ, M.
     pub(super) discrete_time_derivative: &'a [Id],
+    /// The canonical pairs (q, p) of a Hamiltonian.
+    pub(super) canonical: &'a [(usize, usize)],
 }
 
 /// The first strategy that fits, with the reasons against those before it.
@@ -165,6 +167,9 @@ pub(super) fn choose(dag: &mut Dag, context: &Context<'_>) -> (Strategy, Vec<Ref
 
 /// The value of `root` at the midpoint ((t₀+t₁)/2, (x₀+x₁)/2) of a step.
 pub(super) fn midpoint(dag: &mut Dag, root: Id, states: &[Name]) -> Id {
+    if dag.as_constant(root).is_some() {
+        return root;
+    }
     let mut names = states.to_vec();
     names.push(Model::time());
     at_midpoint(dag, root, &names)

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! is orthogonal to Λ^τ whatever α is. A state that ψ does not depend on, or that does not
-//! move, stands alone.
+//! move, stands alone. The canonical pairs of a Hamiltonian are pairs with α = 1 by
+//! construction: q̇ = ∂H/∂p and ṗ = −∂H/∂q.
 
 use std::collections::BTreeMap;
 
@@ -28,22 +29,37 @@ pub(super) fn derive(dag: &mut Dag, context: &Context<'_>) -> Result<Strategy, O
     {
         return Err("ψ depends on the time".into());
     }
-    let alone = alone(dag, context, gradient);
-    let remaining: Vec<usize> = (0..context.states.len())
+    let canonical = canonical(dag, context, gradient);
+    let is_paired = |state: usize| {
+        let mut pairs = canonical.iter();
+        pairs.any(|pair| pair.first == state || pair.second == state)
+    };
+    let unpaired: Vec<usize> = (0..context.states.len())
+        .filter(|&state| !is_paired(state))
+        .collect();
+    let alone = alone(dag, context, gradient, &unpaired);
+    let remaining: Vec<usize> = unpaired
+        .into_iter()
         .filter(|state| !alone.contains(state))
         .collect();
+    let divisors = if remaining.is_empty() {
+        Vec::new()
+    } else {
+        poles(dag, context.field.iter().chain(gradient).copied())
+    };
     let mut matching = Matching {
-        poles: poles(dag, context.field.iter().chain(gradient).copied()),
+        poles: divisors,
         context,
         gradient,
         known: BTreeMap::new(),
         obstacle: None,
     };
-    let Some(pairs) = matching.complete(dag, &remaining) else {
+    let Some(found) = matching.complete(dag, &remaining) else {
         return Err(matching.obstacle.unwrap_or_else(|| {
             "the states do not fall into pairs with fᵢ ∂ᵢψ + fⱼ ∂ⱼψ = 0".into()
         }));
     };
+    let pairs: Vec<Pairing> = canonical.into_iter().chain(found).collect();
     let value = assemble(
         dag,
         context,
@@ -82,15 +98,42 @@ pub(in crate::scheme) fn assemble(
     value
 }
 
-/// The states with fᵢ ∂ᵢψ ≡ 0, because one of the factors is.
-fn alone(dag: &mut Dag, context: &Context<'_>, gradient: &[Id]) -> Vec<usize> {
-    (0..context.states.len())
-        .filter(|&state| {
-            let discrete = context.discrete_multiplier[0][state];
-            is_proved_zero(dag, context.field[state])
-                || (is_proved_zero(dag, gradient[state]) && is_proved_zero(dag, discrete))
-        })
-        .collect()
+/// The canonical pairs, of which the nodes of f are those of ∇ψ: ψ is the Hamiltonian that f
+/// was made from.
+fn canonical(dag: &mut Dag, context: &Context<'_>, gradient: &[Id]) -> Vec<Pairing> {
+    let alpha = dag.integer(1);
+    let mut pairs = Vec::with_capacity(context.canonical.len());
+    for &(q, p) in context.canonical {
+        let field = (context.field.get(q), context.field.get(p));
+        let slopes = (gradient.get(q), gradient.get(p));
+        let ((Some(&of_q), Some(&of_p)), (Some(&by_q), Some(&by_p))) = (field, slopes) else {
+            return Vec::new();
+        };
+        if of_q != by_p || of_p != dag.neg(by_q) {
+            return Vec::new();
+        }
+        pairs.push(Pairing {
+            first: q,
+            second: p,
+            alpha,
+        });
+    }
+    pairs
+}
+
+/// The states among `candidates` with fᵢ ∂ᵢψ ≡ 0, because one of the factors is.
+fn alone(
+    dag: &mut Dag,
+    context: &Context<'_>,
+    gradient: &[Id],
+    candidates: &[usize],
+) -> Vec<usize> {
+    let is_alone = |&state: &usize| {
+        let discrete = context.discrete_multiplier[0][state];
+        is_proved_zero(dag, context.field[state])
+            || (is_proved_zero(dag, gradient[state]) && is_proved_zero(dag, discrete))
+    };
+    candidates.iter().copied().filter(is_alone).collect()
 }
 
 /// The search for a perfect matching, in the order of declaration.

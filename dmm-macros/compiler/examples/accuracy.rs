@@ -1,0 +1,56 @@
+//! Rounding errors of every emitted function before and after optimisation, against 120 digits.
+//!
+//! ```text
+//! cargo run --release -p dmm-compiler --example accuracy [FILE | DIRECTORY]
+//! ```
+//!
+//! Errors are those of all results at random points, with steps v τ, τ from 1 to 10⁻¹²: median
+//! and greatest in ulp of the exact value (where a value cancels, many), and mean and greatest
+//! as parts of the a-priori bound of the operations as they are written.
+
+#[path = "../tests/accuracy/mod.rs"]
+mod accuracy;
+mod declarations;
+
+use std::error::Error;
+use std::path::PathBuf;
+
+use accuracy::{Errors, measure, scheme};
+
+/// Points a step size.
+const POINTS: usize = 10;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let path = std::env::args_os().nth(1).map(PathBuf::from);
+    let path = path.unwrap_or_else(declarations::problems);
+    println!(
+        "{:<22} {:<14} {:<22} {:>7} | {:^31} | {:^31}",
+        "system", "region", "function", "values", "as written", "optimised"
+    );
+    let columns = format!(
+        "{:>6} {:>9} {:>7} {:>6}",
+        "median", "ulp, max", "bound", "max"
+    );
+    println!(
+        "{:<22} {:<14} {:<22} {:>7} | {columns} | {columns}",
+        "", "", "", ""
+    );
+    for (file, declaration) in declarations::declarations(&path)? {
+        let scheme = scheme(declaration).map_err(|error| format!("{}: {error}", file.display()))?;
+        for row in measure(&scheme, POINTS) {
+            let [system, region, function] = &row.function;
+            println!(
+                "{system:<22} {region:<14} {function:<22} {:>7} | {} | {}",
+                row.written.count(),
+                errors(&row.written),
+                errors(&row.optimised)
+            );
+        }
+    }
+    Ok(())
+}
+
+fn errors(errors: &Errors) -> String {
+    let ((median, worst), (mean, greatest)) = (errors.ulps(), errors.parts());
+    format!("{median:>6.2} {worst:>9.1} {mean:>7.3} {greatest:>6.2}")
+}

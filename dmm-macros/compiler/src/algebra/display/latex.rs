@@ -1,0 +1,336 @@
+//! Formula → LaTeX, for mathematical mode with amsmath; ASCII only.
+//!
+//! The ends of a step are subscripts, `x_{0}` and `x_{1}`; the index of an element of a group
+//! is a subscript in brackets, `q_{[2]}`, and both are `q_{[2],1}`. The underscore of an
+//! identifier is printed as it stands, so that `x_1` cannot be taken for the later end of `x`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use num_traits::{One, Signed};
+
+use super::formula::{Formula, FormulaId, Formulas, Product, Term};
+use super::symbol::{End, Symbol};
+use super::text::{self, Letters};
+use super::unicode;
+use crate::algebra::{Function, PairFunction, Rational};
+
+/// Parts are cut off below this many levels.
+const DEEPEST_NESTING: usize = 120;
+/// A formula is cut off after this many parts.
+const LARGEST_TEXT: usize = 4_000;
+
+/// How names are written; different names always differently.
+#[derive(Debug, Clone)]
+pub struct Style {
+    /// The letters that the text of the same formulas uses.
+    pub letters: Letters,
+    names: BTreeMap<String, String>,
+}
+
+impl Style {
+    /// A style for the names that a declaration uses.
+    pub fn new<'a>(letters: Letters, names: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut written: BTreeMap<String, String> = BTreeMap::new();
+        let mut taken: BTreeSet<String> = BTreeSet::new();
+        for name in names {
+            if written.contains_key(name) {
+                continue;
+            }
+            let mut latex = variable(name);
+            while !taken.insert(latex.clone()) {
+                latex.push('\'');
+            }
+            written.insert(name.to_owned(), latex);
+        }
+        Self {
+            letters,
+            names: written,
+        }
+    }
+
+    /// The name of a variable.
+    pub fn name(&self, name: &str) -> String {
+        match self.names.get(name) {
+            Some(latex) => latex.clone(),
+            None => unicode::mathematics(name),
+        }
+    }
+}
+
+/// The name of a variable: a letter, a Greek letter by its name, or a word.
+fn variable(name: &str) -> String {
+    // τ, λ and ψ have another meaning in what surrounds the formulas
+    const GREEK: &[&str] = &[
+        "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+        "mu", "nu", "xi", "rho", "sigma", "upsilon", "phi", "chi", "omega", "Gamma", "Theta", "Xi",
+        "Phi", "Omega",
+    ];
+    let mut letters = name.chars();
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) if letter.is_ascii_alphabetic() => name.to_owned(),
+        _ if GREEK.contains(&name) => format!("\\{name}"),
+        (Some(_), None) => unicode::mathematics(name),
+        _ if name.is_ascii() => format!(r"\mathit{{{}}}", unicode::escaped(name)),
+        _ => format!(r"\mathit{{{}}}", unicode::mathematics(name)),
+    }
+}
+
+/// `root` in LaTeX.
+pub fn write(formulas: &Formulas, root: FormulaId, style: &Style) -> String {
+    Writer::new(formulas, style).operand(root, Precedence::Sum)
+}
+
+/// The terms of `root`, if it is a sum: each with its sign.
+pub fn terms(formulas: &Formulas, root: FormulaId, style: &Style) -> Vec<String> {
+    let mut writer = Writer::new(formulas, style);
+    match &formulas[root] {
+        Formula::Sum(terms) => (terms.iter().enumerate())
+            .map(|(place, &term)| writer.term(place == 0, term))
+            .collect(),
+        _ => vec![writer.operand(root, Precedence::Sum)],
+    }
+}
+
+/// A symbol in LaTeX.
+pub fn symbol(symbol: &Symbol, style: &Style) -> String {
+    let index = symbol
+        .position
+        .map(|position| format!("[{}]", text::index(position, &style.letters)));
+    let end = symbol.end.map(|end| match end {
+        End::Start => "0".to_owned(),
+        End::End => "1".to_owned(),
+    });
+    let scripted = |base: String, scripts: [Option<String>; 2]| {
+        let scripts: Vec<String> = scripts.into_iter().flatten().collect();
+        match scripts.is_empty() {
+            true => base,
+            false => format!("{base}_{{{}}}", scripts.join(",")),
+        }
+    };
+    match &symbol.component {
+        Some(component) => {
+            let component = scripted(style.name(component), [index, None]);
+            format!("{}[{component}]", unicode::mathematics(&symbol.base))
+        }
+        None => scripted(style.name(&symbol.base), [index, end]),
+    }
+}
+
+/// The name of a shared formula.
+pub fn shared(number: usize, in_row: bool, style: &Style) -> String {
+    let letter = unicode::mathematics(&style.letters.shared);
+    match in_row {
+        true => format!("{letter}_{{{number},[{}]}}", style.letters.row),
+        false => format!("{letter}_{{{number}}}"),
+    }
+}
+
+/// How tightly the outermost operation binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Precedence {
+    Sum,
+    Product,
+    /// Holds together in a product, but cannot be raised to a power.
+    Factor,
+    Atom,
+}
+
+type Written = (String, Precedence);
+
+struct Writer<'a> {
+    formulas: &'a Formulas,
+    style: &'a Style,
+    budget: usize,
+    depth: usize,
+}
+
+impl<'a> Writer<'a> {
+    fn new(formulas: &'a Formulas, style: &'a Style) -> Self {
+        Self {
+            formulas,
+            style,
+            budget: LARGEST_TEXT,
+            depth: 0,
+        }
+    }
+
+    fn operand(&mut self, id: FormulaId, least: Precedence) -> String {
+        let (text, precedence) = self.formula(id);
+        parenthesised(text, precedence < least)
+    }
+
+    fn formula(&mut self, id: FormulaId) -> Written {
+        if self.budget == 0 || self.depth >= DEEPEST_NESTING {
+            return (r"\dots".into(), Precedence::Atom);
+        }
+        self.budget -= 1;
+        self.depth += 1;
+        let formulas = self.formulas;
+        let written = match &formulas[id] {
+            Formula::Constant(value) => constant(value),
+            Formula::Pi => (r"\pi".into(), Precedence::Atom),
+            Formula::Symbol(variable) => {
+                let precedence = match variable.component {
+                    Some(_) => Precedence::Factor,
+                    None => Precedence::Atom,
+                };
+                (symbol(variable, self.style), precedence)
+            }
+            Formula::Shared { number, in_row } => {
+                (shared(*number, *in_row, self.style), Precedence::Atom)
+            }
+            Formula::Call(function, u) => self.call(*function, *u),
+            Formula::Pair(function, [a, b]) => {
+                let a = self.operand(*a, Precedence::Sum);
+                let b = self.operand(*b, Precedence::Sum);
+                let name = divided_difference(*function);
+                (format!(r"{name}\left({a}, {b}\right)"), Precedence::Factor)
+            }
+            Formula::Power(base, exponent) => {
+                let base = self.operand(*base, Precedence::Atom);
+                let exponent = self.operand(*exponent, Precedence::Sum);
+                (format!("{base}^{{{exponent}}}"), Precedence::Factor)
+            }
+            Formula::Total { term, first, last } => {
+                let term = self.operand(*term, Precedence::Product);
+                let letter = &self.style.letters.term;
+                (
+                    format!(r"\sum_{{{letter}={first}}}^{{{last}}} {term}"),
+                    Precedence::Product,
+                )
+            }
+            Formula::Sum(terms) => {
+                let terms = (terms.iter().enumerate())
+                    .map(|(place, &term)| self.term(place == 0, term))
+                    .collect();
+                (terms, Precedence::Sum)
+            }
+            Formula::Product(product) => self.product(product),
+        };
+        self.depth -= 1;
+        written
+    }
+
+    fn call(&mut self, function: Function, u: FormulaId) -> Written {
+        let argument = self.operand(u, Precedence::Sum);
+        let name = match function {
+            Function::Sqrt => return (format!(r"\sqrt{{{argument}}}"), Precedence::Factor),
+            Function::Abs => {
+                return (format!(r"\left|{argument}\right|"), Precedence::Atom);
+            }
+            Function::Exp => r"\exp",
+            Function::Ln => r"\ln",
+            Function::Sin => r"\sin",
+            Function::Cos => r"\cos",
+            Function::Tan => r"\tan",
+            Function::Sinh => r"\sinh",
+            Function::Cosh => r"\cosh",
+            Function::Tanh => r"\tanh",
+            Function::Asin => r"\arcsin",
+            Function::Acos => r"\arccos",
+            Function::Atan => r"\arctan",
+            Function::Sinc => r"\operatorname{sinc}",
+            Function::SincPrime => r"\operatorname{sinc}'",
+            Function::Sinhc => r"\operatorname{sinhc}",
+            Function::SinhcPrime => r"\operatorname{sinhc}'",
+        };
+        (
+            format!(r"{name}\left({argument}\right)"),
+            Precedence::Factor,
+        )
+    }
+
+    /// A term with its sign.
+    fn term(&mut self, is_first: bool, term: Term) -> String {
+        let sign = match (is_first, term.negative) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        };
+        let (text, precedence) = self.formula(term.formula);
+        let text = parenthesised(text, precedence == Precedence::Sum);
+        format!("{sign}{text}")
+    }
+
+    fn product(&mut self, product: &Product) -> Written {
+        let sign = if product.negative { "-" } else { "" };
+        let is_fraction = !product.below.is_empty() || !product.constant.denom().is_one();
+        // the bar of a fraction brackets
+        let least = match is_fraction {
+            true => Precedence::Sum,
+            false => Precedence::Product,
+        };
+        let above = self.side(product.constant.numer().to_string(), &product.above, least);
+        if !is_fraction {
+            return (format!("{sign}{above}"), Precedence::Product);
+        }
+        let below = self.side(product.constant.denom().to_string(), &product.below, least);
+        let precedence = match product.negative {
+            true => Precedence::Product,
+            false => Precedence::Factor,
+        };
+        (format!(r"{sign}\frac{{{above}}}{{{below}}}"), precedence)
+    }
+
+    /// A constant and factors; a factor that is alone needs to bind as tightly as `least`.
+    fn side(&mut self, constant: String, factors: &[FormulaId], least: Precedence) -> String {
+        let has_constant = constant != "1" || factors.is_empty();
+        if let ([only], false) = (factors, has_constant) {
+            return self.operand(*only, least);
+        }
+        let mut text = String::new();
+        if has_constant {
+            text.push_str(&constant);
+        }
+        for &factor in factors {
+            let (written, precedence) = self.formula(factor);
+            let written = parenthesised(written, precedence < Precedence::Factor);
+            // 2 3 would be read as 23
+            let digit = written.starts_with(|letter: char| letter.is_ascii_digit());
+            let _ = match (text.is_empty(), digit) {
+                (true, _) => write!(text, "{written}"),
+                (false, true) => write!(text, r" \cdot {written}"),
+                (false, false) => write!(text, r" \, {written}"),
+            };
+        }
+        text
+    }
+}
+
+fn constant(value: &Rational) -> Written {
+    let sign = if value.is_negative() { "-" } else { "" };
+    let size = value.abs();
+    if size.is_integer() {
+        let precedence = match value.is_negative() {
+            true => Precedence::Product,
+            false => Precedence::Atom,
+        };
+        return (format!("{sign}{size}"), precedence);
+    }
+    (
+        format!(r"{sign}\frac{{{}}}{{{}}}", size.numer(), size.denom()),
+        Precedence::Product,
+    )
+}
+
+/// A divided difference, or its derivative in the second argument.
+fn divided_difference(function: PairFunction) -> &'static str {
+    match function {
+        PairFunction::LnDd => r"\operatorname{dd}_{\ln}",
+        PairFunction::LnDdPrime => r"\operatorname{dd}'_{\ln}",
+        PairFunction::AsinDd => r"\operatorname{dd}_{\arcsin}",
+        PairFunction::AsinDdPrime => r"\operatorname{dd}'_{\arcsin}",
+        PairFunction::AtanDd => r"\operatorname{dd}_{\arctan}",
+        PairFunction::AtanDdPrime => r"\operatorname{dd}'_{\arctan}",
+    }
+}
+
+fn parenthesised(text: String, needed: bool) -> String {
+    if needed {
+        format!(r"\left({text}\right)")
+    } else {
+        text
+    }
+}

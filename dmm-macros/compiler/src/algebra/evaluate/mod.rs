@@ -1,0 +1,306 @@
+//! Numerical evaluation: (expressions, values of the variables) → floating-point values, with
+//! a bound of the rounding error where it is asked for.
+//!
+//! The bound is a first-order running error analysis: with ε the unit roundoff, the error of
+//! u ∘ v is at most the errors of u and v through the derivative of ∘, plus ε|u ∘ v|. It tells
+//! a value that is clearly not zero from what cancellation leaves. What has to be certain is
+//! enclosed in intervals instead ([`enclose`]), or evaluated exactly ([`evaluate_exactly`]).
+
+mod exact;
+mod interval;
+
+use std::collections::BTreeMap;
+
+use num_traits::ToPrimitive;
+
+use super::{Dag, Function, Id, Math, Name, PairFunction, Rational};
+pub use exact::evaluate_exactly;
+pub use interval::{Interval, enclose, enclose_within};
+
+/// The values of `roots`; NaN where a variable has no value or the point is outside a domain.
+pub fn evaluate(dag: &Dag, roots: &[Id], values: &BTreeMap<Name, f64>) -> Vec<f64> {
+    evaluate_bounded(dag, roots, values)
+        .into_iter()
+        .map(|(value, _)| value)
+        .collect()
+}
+
+/// The values of `roots`, each with a bound of its rounding error.
+pub fn evaluate_bounded(dag: &Dag, roots: &[Id], values: &BTreeMap<Name, f64>) -> Vec<(f64, f64)> {
+    let size = roots.iter().map(|&root| usize::from(root) + 1).max();
+    let mut table = vec![Bounded::NAN; size.unwrap_or(0)];
+    for id in dag.reachable(roots.iter().copied()) {
+        table[usize::from(id)] = node(dag, id, &table, values);
+    }
+    roots
+        .iter()
+        .map(|&root| {
+            let Bounded { value, error } = table[usize::from(root)];
+            (value, error)
+        })
+        .collect()
+}
+
+/// A value and a bound of its error.
+#[derive(Clone, Copy)]
+struct Bounded {
+    value: f64,
+    error: f64,
+}
+
+impl Bounded {
+    const NAN: Self = Self {
+        value: f64::NAN,
+        error: f64::NAN,
+    };
+
+    /// `value`, rounded, after an error `inherited` of the arguments.
+    fn rounded(value: f64, inherited: f64) -> Self {
+        Self {
+            value,
+            error: inherited + f64::EPSILON * value.abs(),
+        }
+    }
+}
+
+fn node(dag: &Dag, id: Id, table: &[Bounded], values: &BTreeMap<Name, f64>) -> Bounded {
+    let of = |child: Id| table[usize::from(child)];
+    match &dag[id] {
+        Math::Pi => Bounded::rounded(std::f64::consts::PI, 0.0),
+        Math::Constant(value) => constant(value),
+        Math::Variable(name) => match values.get(name) {
+            Some(&value) => Bounded { value, error: 0.0 },
+            None => Bounded::NAN,
+        },
+        Math::Neg(u) => Bounded {
+            value: -of(*u).value,
+            ..of(*u)
+        },
+        Math::Add([u, v]) => {
+            let (u, v) = (of(*u), of(*v));
+            Bounded::rounded(u.value + v.value, u.error + v.error)
+        }
+        Math::Sub([u, v]) => {
+            let (u, v) = (of(*u), of(*v));
+            Bounded::rounded(u.value - v.value, u.error + v.error)
+        }
+        Math::Mul([u, v]) => {
+            let (u, v) = (of(*u), of(*v));
+            let inherited = u.value.abs() * v.error + v.value.abs() * u.error;
+            Bounded::rounded(u.value * v.value, inherited)
+        }
+        Math::Div([u, v]) => {
+            let (u, v) = (of(*u), of(*v));
+            let value = u.value / v.value;
+            let inherited = (u.error + value.abs() * v.error) / v.value.abs();
+            Bounded::rounded(value, inherited)
+        }
+        Math::Pow([u, v]) => power(of(*u), of(*v), dag.as_integer(*v)),
+        Math::Call(function, u) => {
+            let u = of(*u);
+            let (value, derivative) = call(*function, u.value);
+            Bounded::rounded(value, scaled(derivative.abs(), u.error))
+        }
+        Math::Pair(function, [a, b]) => {
+            let (a, b) = (of(*a), of(*b));
+            let (value, sensitivity) = pair(*function, a.value, b.value);
+            Bounded::rounded(value, scaled(sensitivity, a.error + b.error))
+        }
+    }
+}
+
+/// `slope`·`error`, 0 for an exact argument even where the slope is infinite.
+fn scaled(slope: f64, error: f64) -> f64 {
+    if error == 0.0 { 0.0 } else { slope * error }
+}
+
+fn constant(value: &Rational) -> Bounded {
+    let float = value.to_f64().unwrap_or(f64::NAN);
+    let exact = value.is_integer() && float.abs() < 9e15;
+    Bounded::rounded(float, 0.0).exact_if(exact)
+}
+
+impl Bounded {
+    fn exact_if(self, exact: bool) -> Self {
+        Self {
+            error: if exact { 0.0 } else { self.error },
+            ..self
+        }
+    }
+}
+
+fn power(u: Bounded, v: Bounded, integer: Option<i64>) -> Bounded {
+    let value = match integer.and_then(|n| i32::try_from(n).ok()) {
+        Some(n) => u.value.powi(n),
+        None => u.value.powf(v.value),
+    };
+    let size = value.abs();
+    let through_base = scaled(size * (v.value / u.value).abs(), u.error);
+    let through_exponent = scaled(size * u.value.abs().ln().abs(), v.error);
+    // repeated multiplication rounds once a factor
+    let roundings = f64::EPSILON * size * v.value.abs().min(64.0);
+    Bounded::rounded(value, through_base + through_exponent + roundings)
+}
+
+/// h(u) and h′(u).
+fn call(function: Function, u: f64) -> (f64, f64) {
+    use Function::*;
+    match function {
+        Sqrt => (u.sqrt(), 0.5 / u.sqrt()),
+        Exp => (u.exp(), u.exp()),
+        Ln => (u.ln(), 1.0 / u),
+        Sin => (u.sin(), u.cos()),
+        Cos => (u.cos(), u.sin()),
+        Tan => (u.tan(), 1.0 + u.tan() * u.tan()),
+        Sinh => (u.sinh(), u.cosh()),
+        Cosh => (u.cosh(), u.sinh()),
+        Tanh => (u.tanh(), 1.0 / (u.cosh() * u.cosh())),
+        Asin => (u.asin(), 1.0 / (1.0 - u * u).sqrt()),
+        Acos => (u.acos(), 1.0 / (1.0 - u * u).sqrt()),
+        Atan => (u.atan(), 1.0 / (1.0 + u * u)),
+        Abs => (u.abs(), 1.0),
+        Sinc => (sinc(u), sinc_prime(u)),
+        SincPrime => (sinc_prime(u), 1.0),
+        Sinhc => (sinhc(u), sinhc_prime(u)),
+        // |sinhc″| ≤ cosh
+        SinhcPrime => (sinhc_prime(u), u.cosh()),
+    }
+}
+
+fn sinc(u: f64) -> f64 {
+    if u == 0.0 { 1.0 } else { u.sin() / u }
+}
+
+fn sinhc(u: f64) -> f64 {
+    if u == 0.0 { 1.0 } else { u.sinh() / u }
+}
+
+/// Below this size the derivatives of `sinc` and `sinhc` are summed as series.
+const SERIES: f64 = 1.0;
+
+fn sinc_prime(u: f64) -> f64 {
+    if u.abs() < SERIES {
+        cardinal_series(u, -1.0)
+    } else {
+        (u.cos() - sinc(u)) / u
+    }
+}
+
+fn sinhc_prime(u: f64) -> f64 {
+    if u.abs() < SERIES {
+        cardinal_series(u, 1.0)
+    } else {
+        (u.cosh() - sinhc(u)) / u
+    }
+}
+
+/// Σ 2k σᵏ u^(2k−1)/(2k+1)! over k ≥ 1, the derivative of Σ σᵏ u^(2k)/(2k+1)!.
+fn cardinal_series(u: f64, sign: f64) -> f64 {
+    let mut power = u;
+    let mut sum = 0.0;
+    for k in 1..=10_u32 {
+        let n = f64::from(2 * k);
+        power *= sign / (n * (n + 1.0));
+        sum += n * power;
+        power *= u * u;
+    }
+    sum
+}
+
+/// A divided difference (or its derivative), and the size of its derivatives.
+fn pair(function: PairFunction, a: f64, b: f64) -> (f64, f64) {
+    use PairFunction::*;
+    let derivative = |a, b| prime(function, a, b);
+    match function {
+        LnDd | AsinDd | AtanDd => {
+            let sensitivity = derivative(a, b).abs() + derivative(b, a).abs();
+            (divided_difference(function, a, b), sensitivity)
+        }
+        // |∂h[a, b]′| ≤ sup |h‴|, estimated by steps of the derivative itself
+        LnDdPrime | AsinDdPrime | AtanDdPrime => {
+            let value = derivative(a, b);
+            let step = 1e-4 * a.abs().min(b.abs()).max(1e-4);
+            let in_a = (derivative(a + step, b) - value).abs() / step;
+            let in_b = (derivative(a, b + step) - value).abs() / step;
+            (value, 2.0 * (in_a + in_b) + value.abs())
+        }
+    }
+}
+
+fn divided_difference(function: PairFunction, a: f64, b: f64) -> f64 {
+    use PairFunction::*;
+    let d = b - a;
+    match function {
+        LnDd | LnDdPrime => {
+            let t = d / a;
+            if t == 0.0 {
+                1.0 / a
+            } else if t.abs() < 0.5 {
+                t.ln_1p() / d
+            } else {
+                (b.ln() - a.ln()) / d
+            }
+        }
+        // tan((β − α)/2) = (sin β − sin α)/(cos β + cos α)
+        AsinDd | AsinDdPrime => {
+            let cosines = (1.0 - a * a).sqrt() + (1.0 - b * b).sqrt();
+            2.0 / cosines * atan_quotient(d / cosines)
+        }
+        // tan(β − α) = (tan β − tan α)/(1 + tan α tan β)
+        AtanDd | AtanDdPrime => {
+            let c = 1.0 + a * b;
+            if c > 0.0 {
+                atan_quotient(d / c) / c
+            } else {
+                (b.atan() - a.atan()) / d
+            }
+        }
+    }
+}
+
+/// atan(u)/u
+fn atan_quotient(u: f64) -> f64 {
+    if u == 0.0 { 1.0 } else { u.atan() / u }
+}
+
+/// ∂h\[a, b\]/∂b = (h′(b) − h\[a, b\])/(b − a) = ∫₀¹ s h″(a + s(b − a)) ds; the integral, by
+/// Gauss–Legendre quadrature, where the ends are close.
+fn prime(function: PairFunction, a: f64, b: f64) -> f64 {
+    use PairFunction::*;
+    let d = b - a;
+    let to_singularity = match function {
+        LnDd | LnDdPrime => a.abs().min(b.abs()),
+        AsinDd | AsinDdPrime => 1.0 - a.abs().max(b.abs()),
+        AtanDd | AtanDdPrime => 1.0,
+    };
+    if d.abs() <= 0.1 * to_singularity {
+        return GAUSS_LEGENDRE
+            .iter()
+            .map(|&(s, weight)| weight * s * second_derivative(function, a + s * d))
+            .sum();
+    }
+    let first = match function {
+        LnDd | LnDdPrime => 1.0 / b,
+        AsinDd | AsinDdPrime => 1.0 / (1.0 - b * b).sqrt(),
+        AtanDd | AtanDdPrime => 1.0 / (1.0 + b * b),
+    };
+    (first - divided_difference(function, a, b)) / d
+}
+
+fn second_derivative(function: PairFunction, u: f64) -> f64 {
+    use PairFunction::*;
+    match function {
+        LnDd | LnDdPrime => -1.0 / (u * u),
+        AsinDd | AsinDdPrime => u / ((1.0 - u * u) * (1.0 - u * u).sqrt()),
+        AtanDd | AtanDdPrime => -2.0 * u / ((1.0 + u * u) * (1.0 + u * u)),
+    }
+}
+
+/// The 5-point nodes on \[0, 1\] and their weights.
+const GAUSS_LEGENDRE: [(f64, f64); 5] = [
+    (0.046_910_077_030_668, 0.118_463_442_528_094_5),
+    (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
+    (0.5, 0.284_444_444_444_444_44),
+    (0.769_234_655_052_841_6, 0.239_314_335_249_683_23),
+    (0.953_089_922_969_332, 0.118_463_442_528_094_5),
+];

@@ -1,0 +1,109 @@
+//! The answer to "is this expression identically zero?".
+//!
+//! Zero is proved by the normal form alone. Not zero is shown at a point: by a value far beyond
+//! the bound of its rounding error, of the expression or of its normal form (in which what
+//! cancels has been cancelled exactly), or by an exact rational value, however small.
+
+use super::super::{Dag, Id, Math, Name};
+use super::Obstacle;
+use super::algebra::Algebra;
+use super::form::normal_form;
+use super::fraction::Fraction;
+use super::sample::{self, Point};
+use super::sums::normal_form_by_parts;
+use super::write_back::Writer;
+
+/// The work spent on the normal form of an expression that is known not to be zero.
+const RESIDUAL_WORK: usize = 100_000;
+
+/// The answer to "is this expression identically zero?".
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Zero wherever it is defined.
+    Proved,
+    /// Clearly not zero at a point.
+    Refuted(Counterexample),
+    /// Neither could be shown.
+    Undecided,
+}
+
+/// A point at which an expression is clearly not zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counterexample {
+    /// The expression, simplified for reading.
+    pub residual: Id,
+    /// The point, in the order of the names.
+    pub point: Vec<(Name, f64)>,
+    /// The expression's value there.
+    pub value: f64,
+}
+
+/// Whether `root` is zero wherever it is defined.
+///
+/// A few points come first: most expressions that are not zero are found out there.
+pub fn decide_zero(dag: &mut Dag, root: Id) -> Verdict {
+    decide_zero_on(dag, root, &[])
+}
+
+/// Whether `root` is zero wherever it and `domain` are defined.
+pub fn decide_zero_on(dag: &mut Dag, root: Id, domain: &[Id]) -> Verdict {
+    if dag.is_zero(root) {
+        return Verdict::Proved;
+    }
+    let roots: Vec<Id> = [root].into_iter().chain(domain.iter().copied()).collect();
+    let early = sample::soon_non_zero(dag, &roots);
+    let mut algebra = match early {
+        Some(_) => Algebra::with_budget(RESIDUAL_WORK),
+        None => Algebra::default(),
+    };
+    algebra.assume_domain(dag, roots.iter().copied());
+    let form = form_of(&mut algebra, dag, root);
+    if form.as_ref().is_ok_and(Fraction::is_zero) {
+        return Verdict::Proved;
+    }
+    let written = form
+        .ok()
+        .and_then(|form| Writer::new(dag, &mut algebra).fraction(&form));
+    let Some(found) = early.or_else(|| non_zero(dag, &roots, written)) else {
+        return Verdict::Undecided;
+    };
+    let residual = match written {
+        Some(written) if dag.tree_size(written) <= dag.tree_size(root) => written,
+        _ => root,
+    };
+    let Point { coordinates, value } = sample::shortened(dag, residual, &roots, found);
+    Verdict::Refuted(Counterexample {
+        residual,
+        point: coordinates,
+        value,
+    })
+}
+
+/// The form of `root`; of sums, by parts.
+fn form_of(algebra: &mut Algebra, dag: &Dag, root: Id) -> Result<Fraction, Obstacle> {
+    match dag[root] {
+        Math::Add(_) | Math::Sub(_) => normal_form_by_parts(algebra, dag, root),
+        _ => normal_form(algebra, dag, root),
+    }
+}
+
+/// A point at which `roots`\[0\], or its normal form, is not zero.
+fn non_zero(dag: &Dag, roots: &[Id], written: Option<Id>) -> Option<Point> {
+    let root = *roots.first()?;
+    sample::non_zero(dag, root, roots)
+        .or_else(|| sample::non_zero(dag, written?, roots))
+        .or_else(|| sample::exactly_non_zero(dag, root, roots))
+}
+
+/// Whether `root` is proved to be zero wherever it is defined.
+pub fn is_proved_zero(dag: &Dag, root: Id) -> bool {
+    if dag.is_zero(root) {
+        return true;
+    }
+    if sample::soon_non_zero(dag, &[root]).is_some() {
+        return false;
+    }
+    let mut algebra = Algebra::default();
+    algebra.assume_domain(dag, [root]);
+    form_of(&mut algebra, dag, root).is_ok_and(|form| form.is_zero())
+}

@@ -1,0 +1,138 @@
+//! Regions and their vector fields.
+
+use super::{messages, one};
+
+#[test]
+fn every_state_has_one_derivative() {
+    one("state x, y; der(x) = y;", "the system has no `der(y)`");
+    one(
+        "state x, y, z; der(x) = y;",
+        "the system has no `der(y)`, `der(z)`",
+    );
+    one(
+        "state x; der(x) = 1; der(x) = 2;",
+        "`der(x)` is given twice",
+    );
+    one("state x; der(x) = 1; der(y) = 2;", "there is no state `y`");
+    one(
+        "state position; der(positon) = 2;",
+        "did you mean `position`?",
+    );
+    one(
+        "state x; param k = 1; der(x) = 1; der(k) = 2;",
+        "`k` is a parameter; only states have a `der`",
+    );
+    one(
+        "state x; der(x) = 1; der(t) = 1;",
+        "`t` is the time, which needs no `der`",
+    );
+    one(
+        "state x, y; interface g = x;
+         region a where g > 0 { der(x) = y; } region b where g < 0 { der(x) = y; der(y) = 1; }",
+        "the region `a` has no `der(y)`",
+    );
+    one(
+        "state x; interface g = x; region a where g > 0 { der(x) = 1; der(x) = 2; }
+         region b where g < 0 { der(x) = 1; }",
+        "`der(x)` is given twice in the region `a`",
+    );
+    one(
+        "param k = 1; const c = 1; let _a = k + c;",
+        "at least one state",
+    );
+    let many: Vec<String> = (0..129)
+        .map(|i| format!("state x{i}; der(x{i}) = 1;"))
+        .collect();
+    one(&many.join(" "), "129 states are too many");
+}
+
+/// A system with the interface g and these regions.
+fn with_regions(regions: &str) -> String {
+    format!("state x; interface wall = x; {regions}")
+}
+
+#[test]
+fn regions_are_the_two_sides_of_the_interface() {
+    let both = "region a where wall > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }";
+    assert_eq!(messages(&with_regions(both)), Vec::<String>::new());
+    for (regions, message) in [
+        (
+            "region a where wall > 0 { der(x) = 1; }",
+            "there is no region where `wall < 0`",
+        ),
+        ("", "the interface `wall` bounds no region"),
+        ("der(x) = 1;", "the interface `wall` bounds no region"),
+        (
+            "region a where wall > 0 { der(x) = 1; } region b where wall > 0 { der(x) = 1; }",
+            "the regions `a` and `b` overlap: both are where `wall > 0`",
+        ),
+        (
+            "region a where wall > 0 { der(x) = 1; } region a where wall < 0 { der(x) = 1; }",
+            "the region `a` is declared twice",
+        ),
+        (
+            "region low_y where wall > 0 { der(x) = 1; } region lowY where wall < 0 { der(x) = 1; }",
+            "are both called `LowY`",
+        ),
+        (
+            "region a { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
+            "on which side is the region `a`?",
+        ),
+        (
+            "region a where wal > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
+            "did you mean `wall`?",
+        ),
+        (
+            "region a where x > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
+            "`x` is a state, not an interface",
+        ),
+        (
+            "region a where wall > 0 and wall > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
+            "`wall` stands twice",
+        ),
+        (
+            "der(x) = 2; region a where wall > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
+            "`der(x)` stands at the top level already, for all regions: it cannot be given again in the region `a`",
+        ),
+        (
+            "conserved e = x; region a where wall > 0 { der(x) = 0; conserved e = t; }
+             region b where wall < 0 { der(x) = 0; conserved e = t; }",
+            "`e` is declared at the top level already, for all regions: it cannot be declared again in the region `a`",
+        ),
+    ] {
+        one(&with_regions(regions), message);
+    }
+}
+
+#[test]
+fn regions_need_an_interface_that_can_be_crossed() {
+    one(
+        "state x; region a { der(x) = 1; }",
+        "a region is bounded by an interface",
+    );
+    one(
+        "state x; region a where wall > 0 { der(x) = 1; }",
+        "there is no interface `wall`",
+    );
+    one(
+        "state x; param k = 1; interface wall = k - 2;
+         region a where wall > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
+        "depends neither on a state nor on `t`",
+    );
+    one(
+        "state x, y; interface left = x; interface low = y;
+         region a where left > 0 and low > 0 { der(x) = 1; der(y) = 1; }
+         region b where left < 0 and low > 0 { der(x) = 1; der(y) = 1; }",
+        "several interfaces are not supported yet: `low` is the second",
+    );
+}
+
+#[test]
+fn a_missing_region_does_not_make_its_parameters_unused() {
+    let messages = messages(
+        "state x; param k_above = 1, k_below = 2; interface wall = x;
+         region above where wall > 0 { der(x) = k_above; }",
+    );
+    assert_eq!(messages.len(), 1, "{messages:#?}");
+    assert!(messages[0].contains("there is no region where `wall < 0`"));
+}

@@ -1,0 +1,171 @@
+//! How f^τ is made, why not otherwise, and f^τ.
+
+use super::super::system::plain_text;
+use super::compose::{Entry, words};
+use super::document::{Part, Phrase, Piece, Section};
+use super::region::{Lister, symbol, titled};
+use crate::scheme::{Explicit, Obstacle, Pairing, Strategy};
+
+/// Pairs are listed as rows if there are more than this.
+const FEW_PAIRS: usize = 3;
+/// No more states than this are named in a sentence.
+const MOST_NAMED: usize = 8;
+
+/// The strategy and f^τ of a region.
+pub(super) fn section(lister: &mut Lister<'_>) {
+    let derived = lister.derived;
+    let mut rows = Vec::new();
+    let (remark, explicit) = match &derived.strategy {
+        Strategy::Midpoint { field } => (
+            words("f at the midpoint, nothing being conserved"),
+            Some(field),
+        ),
+        Strategy::SkewPairing {
+            pairs,
+            alone,
+            field,
+        } => {
+            let remark = if pairs.len() > FEW_PAIRS {
+                rows = pair_rows(lister, pairs);
+                words(format!(
+                    "skew pairing with α at the midpoint{}",
+                    apart(lister, alone)
+                ))
+            } else {
+                pairing(lister, pairs, alone)
+            };
+            (remark, Some(field))
+        }
+        Strategy::CrossProduct { alpha, field } => {
+            let alpha = lister.composer.formula(lister.dag(), *alpha);
+            let remark = vec![
+                "cross product of the rows of Λ^τ with α = ".into(),
+                alpha.into(),
+                " at the midpoint".into(),
+            ];
+            (remark, Some(field))
+        }
+        Strategy::MinimalNorm { .. } => (words("minimal norm"), None),
+    };
+    let section = Section {
+        remark,
+        reasons: refusals(lister),
+        ..titled("strategy", "")
+    };
+    lister.composer.add(section, rows);
+    match (explicit, &derived.strategy) {
+        (Some(field), _) => {
+            let rows = lister.column("f^τ[", &field.value);
+            lister
+                .composer
+                .add(titled("discrete vector field ", "f^τ"), rows);
+        }
+        (None, Strategy::MinimalNorm { mean, .. }) => minimal_norm(lister, mean),
+        (None, _) => {}
+    }
+}
+
+fn pairing(lister: &mut Lister<'_>, pairs: &[Pairing], alone: &[usize]) -> Phrase {
+    let states: Vec<&str> = lister.states().map(|name| name.as_str()).collect();
+    let mut phrase = words("skew pairing ");
+    for (place, pair) in pairs.iter().enumerate() {
+        let comma = if place == 0 { "" } else { ", " };
+        let (first, second) = (states[pair.first], states[pair.second]);
+        let alpha = lister.composer.formula(lister.dag(), pair.alpha);
+        phrase.push(format!("{comma}({first}, {second}) with α = ").into());
+        phrase.push(alpha.into());
+        if lister.dag().as_constant(pair.alpha).is_none() {
+            phrase.push(" at the midpoint".into());
+        }
+    }
+    phrase.extend(words(apart(lister, alone)));
+    phrase
+}
+
+/// The states that are in no pair.
+fn apart(lister: &Lister<'_>, alone: &[usize]) -> String {
+    let states: Vec<&str> = lister.states().map(|name| name.as_str()).collect();
+    let mut text: String = alone
+        .iter()
+        .take(MOST_NAMED)
+        .map(|&index| format!(", {} alone", states[index]))
+        .collect();
+    if alone.len() > MOST_NAMED {
+        text.push_str(&format!(", {} more alone", alone.len() - MOST_NAMED));
+    }
+    text
+}
+
+fn pair_rows(lister: &mut Lister<'_>, pairs: &[Pairing]) -> Vec<Entry> {
+    let states: Vec<_> = lister.states().collect();
+    pairs
+        .iter()
+        .map(|pair| {
+            let left = vec![
+                Part::Sign("α("),
+                symbol(states[pair.first]),
+                Part::Sign(", "),
+                symbol(states[pair.second]),
+                Part::Sign(")"),
+            ];
+            (left, lister.composer.formula(lister.dag(), pair.alpha))
+        })
+        .collect()
+}
+
+fn minimal_norm(lister: &mut Lister<'_>, mean: &Explicit) {
+    let rows = lister.column("f̄[", &mean.value);
+    let names: Vec<String> = lister
+        .region
+        .conserved
+        .iter()
+        .map(|one| plain_text(&one.ident))
+        .collect();
+    let mut note = words("Λ^τ Λ^τᵀ is singular where ");
+    match &names[..] {
+        [one] => note.push(format!("the gradient of {one} vanishes").into()),
+        names => {
+            note.push(format!("the gradients of {} are dependent", names.join(", ")).into());
+            let refusals = &lister.derived.refusals;
+            let denominator = refusals.iter().find_map(|refusal| match refusal.obstacle {
+                Obstacle::Denominator(factor) => Some(factor),
+                Obstacle::Condition(_) => None,
+            });
+            if let Some(factor) = denominator {
+                note.push(", as they are where ".into());
+                note.push(lister.composer.formula(lister.dag(), factor).into());
+                note.push(" = 0".into());
+            }
+        }
+    }
+    note.push("; what is dependent is left out".into());
+    let section = Section {
+        remark: vec![
+            Piece::Signs("(Λ^τ Λ^τᵀ) λ = Λ^τ f̄ + ∂ₜ^τψ"),
+            ", solved at run time".into(),
+        ],
+        notes: vec![note],
+        ..titled("discrete vector field ", "f^τ = f̄ − Λ^τᵀ λ")
+    };
+    lister.composer.add(section, rows);
+}
+
+fn refusals(lister: &mut Lister<'_>) -> Vec<Phrase> {
+    let derived = lister.derived;
+    derived
+        .refusals
+        .iter()
+        .map(|refusal| {
+            let mut phrase = words(format!("not {}: ", refusal.strategy));
+            match &refusal.obstacle {
+                Obstacle::Condition(reason) => phrase.push(reason.clone().into()),
+                Obstacle::Denominator(factor) => {
+                    phrase.push("α has the denominator ".into());
+                    phrase.push(lister.composer.formula(lister.dag(), *factor).into());
+                    phrase.push(", which vanishes where f and ∇ψ are finite".into());
+                }
+            }
+            phrase
+        })
+        .collect()
+}

@@ -1,0 +1,269 @@
+//! Where a proof holds: on the domain of the formulas that it is about.
+//!
+//! Each step of the normal form holds wherever every node of the expression that it starts from
+//! is defined, and where it splits a root or a logarithm it uses what these nodes imply. So a
+//! proof of ∂ₜψ + ∇ψ·f = 0 holds where ψ, f and the derivatives of ψ are defined:
+//!
+//! | node | needs |
+//! |---|---|
+//! | u/v | v ≠ 0 |
+//! | uⁿ, n < 0 | u ≠ 0 |
+//! | √u, u^(p/q) | u ≥ 0; u > 0 for a negative exponent |
+//! | u^v, ln u | u > 0 |
+//! | asin u, acos u | −1 ≤ u ≤ 1 |
+//! | tan u | cos u ≠ 0 |
+//!
+//! Conditions are taken apart into their factors; those that hold anyway, and those that follow
+//! from others, are left out.
+
+use std::collections::BTreeMap;
+
+use num_traits::Signed;
+
+use crate::algebra::evaluate::{Interval, enclose, enclose_within};
+use crate::algebra::{Dag, Function, Id, Math, Name, is_proved_zero};
+use crate::model::DomainCondition;
+
+/// Conditions that are compared with each other by the normal form, at most.
+const MOST_COMPARED: usize = 16;
+
+/// What has to hold for every node of `roots` to be defined.
+pub(super) fn conditions(dag: &mut Dag, roots: &[Id]) -> Vec<DomainCondition> {
+    let mut found = Conditions::default();
+    for id in dag.reachable(roots.iter().copied()) {
+        found.node(dag, id);
+    }
+    found.finish(dag)
+}
+
+/// What is asked of a node.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Need {
+    NotNegative,
+    NonZero,
+    Positive,
+}
+
+impl Need {
+    /// Whether every number of `range` satisfies it.
+    fn holds(self, range: Interval) -> bool {
+        match self {
+            Self::NonZero => range.nonzero,
+            Self::NotNegative => range.is_not_negative(),
+            Self::Positive => range.is_positive(),
+        }
+    }
+}
+
+#[derive(Default)]
+struct Conditions {
+    /// By argument; both u ≥ 0 and u ≠ 0 are u > 0.
+    needs: BTreeMap<Id, Need>,
+    within_one: Vec<Id>,
+}
+
+impl Conditions {
+    /// What the operation of a node needs of its arguments.
+    fn node(&mut self, dag: &mut Dag, id: Id) {
+        match dag[id] {
+            Math::Div([_, v]) => self.need(dag, v, Need::NonZero),
+            Math::Pow([u, v]) => match (dag.as_integer(v), dag.as_constant(v)) {
+                (Some(n), _) if n >= 0 => {}
+                (Some(_), _) => self.need(dag, u, Need::NonZero),
+                (None, Some(value)) if value.is_positive() => self.need(dag, u, Need::NotNegative),
+                _ => self.need(dag, u, Need::Positive),
+            },
+            Math::Call(Function::Sqrt, u) => self.need(dag, u, Need::NotNegative),
+            Math::Call(Function::Ln, u) => self.need(dag, u, Need::Positive),
+            Math::Call(Function::Tan, u) => {
+                let cosine = dag.call(Function::Cos, u);
+                self.need(dag, cosine, Need::NonZero);
+            }
+            Math::Call(Function::Asin | Function::Acos, u) => {
+                let range = range(dag, u);
+                let inside = range.low >= -1.0 && range.high <= 1.0;
+                if !inside && !self.within_one.contains(&u) {
+                    self.within_one.push(u);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Notes that `id` is needed, in its simplest form.
+    fn need(&mut self, dag: &Dag, id: Id, need: Need) {
+        let range = range(dag, id);
+        if need.holds(range) {
+            return;
+        }
+        // u ≥ 0 is known: only u ≠ 0 is asked
+        let need = if need == Need::Positive && range.is_not_negative() {
+            Need::NonZero
+        } else {
+            need
+        };
+        match (&dag[id], need) {
+            (Math::Neg(u), Need::NonZero) => self.need(dag, *u, Need::NonZero),
+            (Math::Mul([u, v]), Need::NonZero) => {
+                self.need(dag, *u, Need::NonZero);
+                self.need(dag, *v, Need::NonZero);
+            }
+            // the divisor is a condition of its own
+            (Math::Div([u, _]), Need::NonZero) => self.need(dag, *u, Need::NonZero),
+            (Math::Mul([u, v]) | Math::Div([u, v]), _) => {
+                // a factor of known sign is not asked for
+                for (known, other) in [(*u, *v), (*v, *u)] {
+                    let sign = self::range(dag, known);
+                    if sign.is_positive() {
+                        return self.need(dag, other, need);
+                    }
+                    if sign.is_not_negative() && need == Need::Positive {
+                        self.need(dag, known, Need::NonZero);
+                        return self.need(dag, other, need);
+                    }
+                }
+                self.note(id, need);
+            }
+            (Math::Call(Function::Sqrt, u), Need::NonZero) => self.need(dag, *u, Need::Positive),
+            (Math::Pow([u, v]), Need::NonZero) => {
+                let integer = dag.as_integer(*v).is_some();
+                let need = if integer {
+                    Need::NonZero
+                } else {
+                    Need::Positive
+                };
+                self.need(dag, *u, need);
+            }
+            (Math::Pow([u, v]), _) if dag.as_integer(*v).is_some_and(|n| n % 2 != 0) => {
+                self.need(dag, *u, need);
+            }
+            _ => self.note(id, need),
+        }
+    }
+
+    fn note(&mut self, id: Id, need: Need) {
+        let known = self.needs.entry(id).or_insert(need);
+        *known = match (*known, need) {
+            (a, b) if a == b => a,
+            _ => Need::Positive,
+        };
+    }
+
+    /// In the order in which the arguments were written, without what follows from the rest.
+    fn finish(self, dag: &mut Dag) -> Vec<DomainCondition> {
+        let mut kept: Vec<(Id, Need)> = Vec::new();
+        for (id, need) in self.needs {
+            // u > 0 with u ≥ 0 known is u ≠ 0
+            let need = if need == Need::Positive && range(dag, id).is_not_negative() {
+                Need::NonZero
+            } else {
+                need
+            };
+            match equal_condition(dag, &kept, id, need) {
+                Some(index) => {
+                    if let Some(known) = kept.get_mut(index)
+                        && known.1 != need
+                    {
+                        known.1 = Need::Positive;
+                    }
+                }
+                None => kept.push((id, need)),
+            }
+        }
+        let within_one = self.within_one.into_iter();
+        let within: Vec<Id> = within_one
+            .filter(|&u| !is_within_by(dag, &kept, u))
+            .collect();
+        let kept = without_consequences(dag, kept);
+        let needs = kept.into_iter().map(|(id, need)| match need {
+            Need::NotNegative => DomainCondition::NotNegative(id),
+            Need::NonZero => DomainCondition::NonZero(id),
+            Need::Positive => DomainCondition::Positive(id),
+        });
+        needs
+            .chain(within.into_iter().map(DomainCondition::WithinOne))
+            .collect()
+    }
+}
+
+/// The condition among `kept` on the same argument, or on its opposite if only its zeros
+/// matter.
+fn equal_condition(dag: &mut Dag, kept: &[(Id, Need)], id: Id, need: Need) -> Option<usize> {
+    if kept.len() > MOST_COMPARED {
+        return None;
+    }
+    (0..kept.len()).find(|&index| {
+        let Some(&(other, other_need)) = kept.get(index) else {
+            return false;
+        };
+        let difference = dag.sub(id, other);
+        if is_proved_zero(dag, difference) {
+            return true;
+        }
+        let sum = dag.add(id, other);
+        need == Need::NonZero && other_need == Need::NonZero && is_proved_zero(dag, sum)
+    })
+}
+
+/// Whether 1 − u² > 0 is among the conditions.
+fn is_within_by(dag: &mut Dag, kept: &[(Id, Need)], u: Id) -> bool {
+    let one = dag.integer(1);
+    let square = dag.powi(u, 2);
+    let difference = dag.sub(one, square);
+    kept.iter()
+        .any(|&(id, need)| id == difference && need != Need::NonZero)
+}
+
+/// The conditions but for those that hold because of what is asked of single variables.
+fn without_consequences(dag: &Dag, kept: Vec<(Id, Need)>) -> Vec<(Id, Need)> {
+    let mut variables: BTreeMap<Name, Interval> = BTreeMap::new();
+    for &(id, need) in &kept {
+        if let Math::Variable(name) = &dag[id] {
+            let range = match need {
+                Need::NotNegative => Interval::NOT_NEGATIVE,
+                Need::NonZero => Interval::WHOLE.excluding_zero(),
+                Need::Positive => Interval::NOT_NEGATIVE.excluding_zero(),
+            };
+            variables.insert(name.clone(), range);
+        }
+    }
+    let follows = |&(id, need): &(Id, Need)| {
+        let range = enclose_within(dag, &[id], &variables);
+        !matches!(dag[id], Math::Variable(_)) && range.iter().all(|&range| need.holds(range))
+    };
+    let kept: Vec<(Id, Need)> = kept.into_iter().filter(|one| !follows(one)).collect();
+    // no factor of what is positive is zero
+    let positive: Vec<Vec<Id>> = kept
+        .iter()
+        .filter(|&&(_, need)| need == Need::Positive)
+        .map(|&(id, _)| proper_factors(dag, id))
+        .collect();
+    let is_factor = |id: Id| positive.iter().any(|factors| factors.contains(&id));
+    kept.into_iter()
+        .filter(|&(id, need)| need != Need::NonZero || !is_factor(id))
+        .collect()
+}
+
+/// The factors and divisors of a product or quotient, without itself.
+fn proper_factors(dag: &Dag, id: Id) -> Vec<Id> {
+    let mut factors = Vec::new();
+    let mut open = vec![id];
+    while let Some(next) = open.pop() {
+        if next != id {
+            factors.push(next);
+        }
+        match dag[next] {
+            Math::Mul([u, v]) | Math::Div([u, v]) => open.extend([u, v]),
+            Math::Neg(u) => open.push(u),
+            _ => {}
+        }
+    }
+    factors
+}
+
+fn range(dag: &Dag, id: Id) -> Interval {
+    enclose(dag, &[id], &BTreeMap::new())
+        .first()
+        .copied()
+        .unwrap_or(Interval::WHOLE)
+}

@@ -1,0 +1,180 @@
+//! What was proved of a region, in words: the lines that every form of the listing shows.
+
+use super::{Evidence, Proofs, Scheme};
+use crate::algebra::{Dag, Id, to_text};
+use crate::model::{Conservation, Conserved, DomainCondition, Independence, Region};
+
+/// How a statement is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Grounds {
+    /// It was proved symbolically.
+    Proved,
+    /// It holds because of how f was made.
+    ByConstruction,
+    /// It was evaluated at points and accepted on the user's word.
+    Assumed,
+    /// It could be neither proved nor refuted.
+    NotProved,
+}
+
+impl Grounds {
+    /// The word that the listing uses.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::ByConstruction => "by construction",
+            Self::Assumed => "assumed",
+            Self::NotProved => "not proved",
+        }
+    }
+}
+
+/// One statement about a region, and how it is known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// How it is known.
+    pub grounds: Grounds,
+    /// The statement, in the notation of the listing.
+    pub statement: String,
+    /// What it depends on or where it fails; may be empty.
+    pub remark: String,
+}
+
+/// What is known of region number `region` of `scheme`: conservation of every ψ, their
+/// independence, interfaces that are constant along the flow, and the identities of f^τ.
+pub fn findings(scheme: &Scheme, region: usize) -> Vec<Finding> {
+    let (Some(declared), Some(derived)) =
+        (scheme.model.regions.get(region), scheme.regions.get(region))
+    else {
+        return Vec::new();
+    };
+    let dag = scheme.dag();
+    let mut findings: Vec<Finding> = declared
+        .conserved
+        .iter()
+        .map(|psi| conservation(dag, psi))
+        .collect();
+    findings.extend(independence(dag, declared));
+    for &level in &derived.proofs.levels {
+        if let Some(interface) = scheme.model.interfaces.get(level) {
+            let (name, own) = (&interface.ident, &declared.ident);
+            findings.push(Finding {
+                grounds: Grounds::Proved,
+                statement: format!("d{name}/dt = 0"),
+                remark: format!(
+                    "the flow of `{own}` never crosses `{name}`: what enters can never leave through it"
+                ),
+            });
+        }
+    }
+    findings.extend(identities(declared, &derived.proofs));
+    findings
+}
+
+fn conservation(dag: &Dag, psi: &Conserved) -> Finding {
+    let name = &psi.ident;
+    let (grounds, remark) = match &psi.evidence {
+        Conservation::Proved(conditions) => {
+            let conditions: Vec<String> = conditions
+                .iter()
+                .map(|condition| domain(dag, condition))
+                .collect();
+            (Grounds::Proved, conditions.join(", "))
+        }
+        Conservation::ByConstruction => (Grounds::ByConstruction, String::new()),
+        Conservation::Assumed { points, largest } => (
+            Grounds::Assumed,
+            format!("|d{name}/dt| ≤ {largest:.1e} of its terms at {points} points"),
+        ),
+        Conservation::Unknown => (Grounds::NotProved, String::new()),
+    };
+    Finding {
+        grounds,
+        statement: format!("d{name}/dt = 0"),
+        remark,
+    }
+}
+
+/// `x > 0`
+fn domain(dag: &Dag, condition: &DomainCondition) -> String {
+    match condition {
+        DomainCondition::Positive(u) => format!("{} > 0", to_text(dag, *u)),
+        DomainCondition::NotNegative(u) => format!("{} ≥ 0", to_text(dag, *u)),
+        DomainCondition::NonZero(u) => format!("{} ≠ 0", to_text(dag, *u)),
+        DomainCondition::WithinOne(u) => format!("|{}| ≤ 1", to_text(dag, *u)),
+    }
+}
+
+/// Independence of the gradients, nothing without a ψ.
+fn independence(dag: &Dag, region: &Region) -> Option<Finding> {
+    let statement = match region.conserved.as_slice() {
+        [] => return None,
+        [_] => "∇ψ ≠ 0",
+        _ => "the gradients ∇ψ are linearly independent",
+    };
+    let (grounds, statement, remark) = match &region.independence {
+        Independence::Nothing => (
+            Grounds::NotProved,
+            statement.to_owned(),
+            "it could not be decided".to_owned(),
+        ),
+        Independence::Generic => (
+            Grounds::Proved,
+            format!("{statement} at generic points"),
+            "the set where this fails was not found".to_owned(),
+        ),
+        Independence::Proved { factors, minors } => (
+            Grounds::Proved,
+            statement.to_owned(),
+            exceptions(dag, factors, minors),
+        ),
+    };
+    Some(Finding {
+        grounds,
+        statement,
+        remark,
+    })
+}
+
+/// `except where x = 0, or y = z = 0`
+fn exceptions(dag: &Dag, factors: &[Id], minors: &[Id]) -> String {
+    let mut sets: Vec<String> = factors
+        .iter()
+        .map(|&factor| format!("{} = 0", to_text(dag, factor)))
+        .collect();
+    if !minors.is_empty() {
+        let minors: Vec<String> = minors.iter().map(|&minor| to_text(dag, minor)).collect();
+        sets.push(format!("{} = 0", minors.join(" = ")));
+    }
+    if sets.is_empty() {
+        return String::new();
+    }
+    format!("except where {}", sets.join(", or "))
+}
+
+/// The identities of f^τ.
+fn identities(region: &Region, proofs: &Proofs) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    let mut identity = |evidence: Evidence, statement: &str| {
+        findings.push(Finding {
+            grounds: match evidence {
+                Evidence::Proved => Grounds::Proved,
+                Evidence::NotProved => Grounds::NotProved,
+            },
+            statement: statement.into(),
+            remark: String::new(),
+        });
+    };
+    if !region.conserved.is_empty() {
+        identity(
+            proofs.telescopes,
+            "Λ^τ (x₁ − x₀) + ∂ₜ^τψ (t₁ − t₀) = ψ(t₁, x₁) − ψ(t₀, x₀)",
+        );
+        identity(
+            proofs.conserves,
+            "Λ^τ f^τ + ∂ₜ^τψ = 0 whatever the entries of Λ^τ are",
+        );
+    }
+    identity(proofs.consistent, "f^τ(t, x, t, x) = f(t, x)");
+    findings
+}

@@ -1,0 +1,235 @@
+//! Tokens → formula: precedence climbing over `+ - * / % ^`, unary minus, calls, elements, sums
+//! and parentheses.
+
+use proc_macro2::Ident;
+use syn::parse::ParseStream;
+use syn::{Lit, Token, parenthesized, token};
+
+use super::expression::{Expression, ExpressionKind, Operator};
+use super::{mistake, name, number, range};
+use crate::diagnostics::Extent;
+use crate::diagnostics::catalogue::syntax::{BRANCH, DEPTH, INDEX, PATH};
+
+/// Parentheses, signs, exponents and indices may be nested this deep.
+pub(super) const DEEPEST_NESTING: usize = 64;
+
+/// A whole formula, as far as it reaches.
+pub(super) fn formula(input: ParseStream<'_>) -> syn::Result<Expression> {
+    terms(input, 0)
+}
+
+/// product (± product)*
+pub(super) fn terms(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    let mut left = product(input, nesting)?;
+    loop {
+        let operator = if input.peek(Token![+]) && !input.peek(Token![+=]) {
+            Operator::Add
+        } else if input.peek(Token![-]) && !input.peek(Token![-=]) && !input.peek(Token![->]) {
+            Operator::Subtract
+        } else {
+            return Ok(left);
+        };
+        name::skip_one(input);
+        let right = product(input, nesting)?;
+        left = Expression::binary(operator, left, right)?;
+    }
+}
+
+/// signed ((* | / | %) signed)*
+fn product(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    let mut left = signed(input, nesting)?;
+    loop {
+        let operator = if input.peek(Token![*]) && !input.peek(Token![*=]) {
+            mistake::refuse_double_star(input)?;
+            Operator::Multiply
+        } else if input.peek(Token![/]) && !input.peek(Token![/=]) {
+            Operator::Divide
+        } else if input.peek(Token![%]) && !input.peek(Token![%=]) {
+            Operator::Remainder
+        } else {
+            return Ok(left);
+        };
+        name::skip_one(input);
+        let right = signed(input, nesting)?;
+        left = Expression::binary(operator, left, right)?;
+    }
+}
+
+/// −signed, or a power
+fn signed(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    if input.peek(Token![-]) {
+        return negative(input, nesting, signed);
+    }
+    power(input, nesting)
+}
+
+/// −exponent, or a power
+fn exponent(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    if input.peek(Token![-]) {
+        return negative(input, nesting, exponent);
+    }
+    power(input, nesting)
+}
+
+fn negative(
+    input: ParseStream<'_>,
+    nesting: usize,
+    operand: fn(ParseStream<'_>, usize) -> syn::Result<Expression>,
+) -> syn::Result<Expression> {
+    let minus: Token![-] = input.parse()?;
+    let operand = operand(input, deeper(input, nesting)?)?;
+    let extent = Extent::from(minus.span).to(operand.extent);
+    Expression::new(ExpressionKind::Negative(Box::new(operand)), extent)
+}
+
+/// operand [^ exponent]
+fn power(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    let base = operand(input, nesting)?;
+    if !input.peek(Token![^]) || input.peek(Token![^=]) {
+        return Ok(base);
+    }
+    name::skip_one(input);
+    let exponent = exponent(input, deeper(input, nesting)?)?;
+    Expression::binary(Operator::Power, base, exponent)
+}
+
+/// The next depth of nesting, if there may be one.
+pub(super) fn deeper(input: ParseStream<'_>, nesting: usize) -> syn::Result<usize> {
+    if nesting >= DEEPEST_NESTING {
+        return Err(DEPTH.error(
+            input.span(),
+            "this formula is nested too deeply; name parts of it with `let`",
+        ));
+    }
+    Ok(nesting + 1)
+}
+
+/// A number, a name, an element, a call, a sum, or a formula in parentheses.
+fn operand(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    let found = if input.peek(token::Paren) {
+        parentheses(input, nesting)?
+    } else if input.peek(Lit) {
+        literal(input)?
+    } else if let Some(ident) = name::peek_word(input) {
+        word(input, &ident, nesting)?
+    } else {
+        return Err(mistake::no_operand(input));
+    };
+    mistake::refuse_method(input, &found)?;
+    mistake::refuse_index(input, &found)?;
+    Ok(found)
+}
+
+fn parentheses(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+    let content;
+    let parentheses = parenthesized!(content in input);
+    let inner = terms(&content, deeper(input, nesting)?)?;
+    if !content.is_empty() {
+        return Err(mistake::unexpected(&content, &inner));
+    }
+    let extent = Extent::new(parentheses.span.open(), parentheses.span.close());
+    Expression::new(ExpressionKind::Parenthesised(Box::new(inner)), extent)
+}
+
+fn literal(input: ParseStream<'_>) -> syn::Result<Expression> {
+    let literal: Lit = input.parse()?;
+    let value =
+        number::exact(&literal).map_err(|(code, message)| code.error(literal.span(), message))?;
+    let text = number::literal_text(&literal);
+    Expression::new(
+        ExpressionKind::Number { value, text },
+        literal.span().into(),
+    )
+}
+
+/// What begins with the word `ident`.
+fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Expression> {
+    let text = ident.to_string();
+    if text == "if" || text == "match" {
+        let advice =
+            "formulas have no branches: declare an `interface` and a `region` on each side of it";
+        return Err(BRANCH.error(ident, advice));
+    }
+    if text != "der" && name::begins_item(input) {
+        return Err(mistake::no_operand(input));
+    }
+    name::word(input)?;
+    if input.peek(Token![::]) {
+        let advice = "formulas have no paths; π is `pi`, and functions are called by their name, as in `sqrt(x)`";
+        return Err(PATH.error(ident, advice));
+    }
+    if text == "sum" && input.peek(token::Paren) {
+        return range::sum(input, ident, nesting);
+    }
+    if text != "der"
+        && let Some(refusal) = name::refusal_of_word(ident)
+    {
+        return Err(refusal);
+    }
+    if input.peek(token::Bracket) {
+        mistake::refuse_function_index(ident)?;
+        let (index, close) = index(input, ident, nesting)?;
+        let kind = ExpressionKind::Element {
+            group: ident.clone(),
+            index: Box::new(index),
+        };
+        return Expression::new(kind, Extent::from(ident).to(close));
+    }
+    if input.peek(token::Paren) {
+        return call(input, ident, nesting);
+    }
+    Expression::new(ExpressionKind::Name(ident.clone()), ident.into())
+}
+
+fn call(input: ParseStream<'_>, function: &Ident, nesting: usize) -> syn::Result<Expression> {
+    let content;
+    let parentheses = parenthesized!(content in input);
+    let mut arguments = Vec::new();
+    while !content.is_empty() {
+        let argument = terms(&content, deeper(input, nesting)?)?;
+        if !content.is_empty() && !content.peek(Token![,]) {
+            return Err(mistake::unexpected_in_list(&content, &argument));
+        }
+        arguments.push(argument);
+        name::skip_one(&content);
+    }
+    let kind = ExpressionKind::Call {
+        function: function.clone(),
+        arguments,
+    };
+    Expression::new(kind, Extent::from(function).to(parentheses.span.close()))
+}
+
+/// `[formula]` behind the name of a group, with the place of its `]`.
+pub(super) fn index(
+    input: ParseStream<'_>,
+    group: &Ident,
+    nesting: usize,
+) -> syn::Result<(Expression, Extent)> {
+    let content;
+    let brackets = syn::bracketed!(content in input);
+    let whole = Extent::new(brackets.span.open(), brackets.span.close());
+    if content.is_empty() {
+        let message = format!("which element of `{group}`? write `{group}[0]`");
+        return Err(INDEX.error(whole, message));
+    }
+    if content.peek(Token![..]) {
+        return Err(mistake::slice(whole, group));
+    }
+    let index = terms(&content, deeper(input, nesting)?)?;
+    if content.peek(Token![..]) {
+        return Err(mistake::slice(whole, group));
+    }
+    if content.peek(Token![,]) {
+        let message = "a group has one index: declare a group for each row";
+        return Err(INDEX.error(whole, message));
+    }
+    if !content.is_empty() {
+        return Err(mistake::unexpected(&content, &index));
+    }
+    if input.peek(token::Bracket) {
+        let message = "a group has one index: declare a group for each row";
+        return Err(INDEX.error(input.span(), message));
+    }
+    Ok((index, brackets.span.close().into()))
+}
