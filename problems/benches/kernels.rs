@@ -43,6 +43,7 @@ fn main() {
                         iterations: end.statistics.newton_iterations,
                         transitions: end.statistics.transitions,
                     })
+                    .map_err(dmm_runtime::Error::from)
             })
         },
         || hand::run::<hand::Harmonic>([1.0, 1.0]),
@@ -60,6 +61,7 @@ fn main() {
                         iterations: end.statistics.newton_iterations,
                         transitions: end.statistics.transitions,
                     })
+                    .map_err(dmm_runtime::Error::from)
             })
         },
         || hand::run::<hand::Elliptic>([-1.0, -1.0]),

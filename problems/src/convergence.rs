@@ -45,7 +45,7 @@ pub struct Study {
 
 /// An integration that stopped before its end.
 #[derive(Clone, PartialEq, Debug, Error)]
-#[error("with step size {step_size}: {error}")]
+#[error("with step size {step_size:?}: {error}")]
 pub struct Stopped {
     /// τ
     pub step_size: f64,
@@ -101,15 +101,18 @@ pub enum StudyError {
 impl Row {
     /// ‖x̂ − x‖ for each step size.
     pub fn norms(&self) -> Vec<f64> {
-        let count = self.components.first().map_or(0, Vec::len);
-        let square = |j: usize| {
-            self.components
-                .iter()
-                .map(|errors| errors[j] * errors[j])
-                .sum::<f64>()
-        };
-        (0..count).map(|j| square(j).sqrt()).collect()
+        norms(&self.components)
     }
+}
+
+/// The norm of the errors of some components, for each step size.
+pub fn norms(components: &[Vec<f64>]) -> Vec<f64> {
+    let count = components.first().map_or(0, Vec::len);
+    let square = |j: usize| {
+        let errors = components.iter().map(|errors| errors[j] * errors[j]);
+        errors.sum::<f64>()
+    };
+    (0..count).map(|j| square(j).sqrt()).collect()
 }
 
 /// Default numbers of transitions: 0, 10, 20, 30 where there are so many, else a few spread

@@ -15,11 +15,19 @@ pub fn all() -> Vec<Box<dyn Problem>> {
         Entry::<Spiral, 2>::boxed(&spiral::CARD),
         Entry::<RigidBody, 3>::boxed(&rigid_body::CARD),
         Entry::<KeplerRefraction, 4>::boxed(&kepler_refraction::CARD),
+        Entry::<SaturatingInductor, 2>::boxed(&saturating_inductor::CARD),
+        Entry::<FoodChain, 3>::boxed(&food_chain::CARD),
+        Entry::<FputChain, 16>::boxed(&fput_chain::CARD),
+        Entry::<FputChain32, 64>::boxed(&fput_chain_32::CARD),
+        Entry::<TodaChain, 16>::boxed(&toda_chain::CARD),
+        Entry::<TodaChain32, 64>::boxed(&toda_chain_32::CARD),
         Entry::<Toda, 6>::boxed(&toda::CARD),
         Entry::<RelativisticOscillator, 2>::boxed(&relativistic_oscillator::CARD),
         Entry::<HenonHeiles, 4>::boxed(&henon_heiles::CARD),
         Entry::<PoschlTeller, 2>::boxed(&poschl_teller::CARD),
         Entry::<SaturatingSpring, 2>::boxed(&saturating_spring::CARD),
+        Entry::<DoublePendulum, 4>::boxed(&double_pendulum::CARD),
+        Entry::<ThreeBody, 12>::boxed(&three_body::CARD),
     ]
 }
 

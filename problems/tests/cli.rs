@@ -60,6 +60,23 @@ fn show_prints_declaration_and_scheme() {
 }
 
 #[test]
+fn explain_prints_cause_and_remedy() {
+    let entry = said(&["explain", "PWS131"]);
+    assert!(entry.starts_with("PWS131: a range is not written"));
+    assert!(entry.contains("\ncause: ") && entry.contains("\nremedy: "));
+    for spelling in ["131", "pws131", "[PWS131]"] {
+        assert_eq!(said(&["explain", spelling]), entry);
+    }
+    let all = said(&["explain"]);
+    assert!(all.lines().count() > 50 && all.contains("\nPWS131  a range is not written"));
+    for unknown in ["PWS999", "0", "+131", "PWS", "range", "131131", "é131"] {
+        let refused = refusal(&["explain", unknown]);
+        assert!(refused.contains(&format!("there is no error `{unknown}`")));
+        assert!(refused.contains("PWS100 to PWS"));
+    }
+}
+
+#[test]
 fn run_writes_points_transitions_and_pictures() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().join("new").join("folder");
@@ -228,6 +245,10 @@ fn unknown_names_get_a_suggestion() {
     );
     assert!(refusal(&["run", "harmonic", "--initial", "z=2"]).contains("there are x, y"));
     assert!(refusal(&["rnu", "harmonic"]).contains("run"));
+    assert!(refusal(&["conserve", "harmonc"]).contains("did you mean `harmonic`?"));
+    assert!(refusal(&["conserve", "nosuch"]).contains("`pws list` names those there are"));
+    assert!(refusal(&["run", "toda_chain", "--initial", "z=2"]).contains("there are q[8], p[8]"));
+    assert!(refusal(&["run", "toda_chain", "--initial", "q[8]=2"]).contains("did you mean `q["));
     assert!(refusal(&["run", "harmonic", "--stpe", "1"]).contains("--step"));
 }
 
@@ -252,6 +273,116 @@ fn senseless_values_are_refused() {
     assert!(refusal(&["run", "harmonic", "--step", "-1"]).contains("must be positive"));
     assert!(refusal(&["converge", "harmonic", "--after", "5000"]).contains("transitions"));
     refusal(&["converge", "harmonic", "--step=-1"]);
+}
+
+#[test]
+fn what_is_given_twice_is_refused() {
+    let parameters = ["--param", "k_above=2", "--param", "k_above=2"];
+    let text = refusal(&[&["run", "harmonic"][..], &parameters].concat());
+    assert!(
+        text.contains("parameter `k_above` is given twice"),
+        "{text}"
+    );
+    for command in ["run", "converge"] {
+        let text = refusal(&[command, "harmonic", "--initial", "x=1,y=2, x=1"]);
+        assert!(text.contains("state `x` is given twice"), "{text}");
+    }
+}
+
+#[test]
+fn numbers_in_messages_are_short() {
+    let text = refusal(&["run", "harmonic", "--step", "1e-300"]);
+    assert!(
+        text.contains("1e-300 (is below the rounding error of the time)"),
+        "{text}"
+    );
+    let text = refusal(&["run", "harmonic", "--every", "0"]);
+    assert!(
+        text.contains("must be a whole number, 1 at least"),
+        "{text}"
+    );
+    assert!(!text.contains("18446744073709551615"), "{text}");
+}
+
+/// Every write to it fails: there is no space on the device.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_under_standard_output_is_a_failure() {
+    for arguments in [&["list"][..], &["show", "toda"], &["--help"]] {
+        let full = fs::OpenOptions::new()
+            .write(true)
+            .open("/dev/full")
+            .unwrap();
+        let output = std::process::Command::new(assert_cmd::cargo::cargo_bin("pws"))
+            .args(arguments)
+            .stdout(full)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            text.starts_with("pws: cannot write to standard output"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn elements_of_groups_are_given_by_their_index() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path();
+    said(&[
+        "run",
+        "three_body",
+        "--param",
+        "m[1]=2",
+        "--initial",
+        "x[2]=0.125,v[ 0 ]=-0.5",
+        "--end",
+        "0.1",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    let (header, points) = table(&out.join("points.csv"));
+    let first = |name: &str| {
+        let column = header.iter().position(|known| known == name).unwrap();
+        points[0][column].parse::<f64>().unwrap()
+    };
+    assert_eq!((first("x[2]"), first("v[0]")), (0.125, -0.5));
+    // Σ mᵢ uᵢ with m = (1, 2, 1) and u as on the figure eight: 0.466…
+    assert!((first("momentum_x") - 0.466_203_685).abs() < 1e-12);
+}
+
+#[test]
+fn every_command_takes_every_problem() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().to_str().unwrap();
+    for problem in dmm_problems::registry::all() {
+        let name = problem.card().name;
+        let shown = said(&["show", name]);
+        assert!(shown.contains("discrete vector field"), "{name}");
+        let text = said(&["run", name, "--step", "0.02", "--end", "1", "--out", out]);
+        assert!(text.contains("reached t = 1 with step size 0.02"), "{text}");
+        let halvings = [
+            "--after",
+            "0",
+            "--end",
+            "1",
+            "--halvings",
+            "2",
+            "--step",
+            "0.01",
+        ];
+        let text = said(&[&["converge", name, "--out", out][..], &halvings].concat());
+        assert!(text.contains("order"), "{text}");
+    }
+    let text = said(&["conserve", "--steps", "200", "--out", out]);
+    for problem in dmm_problems::registry::all() {
+        assert!(
+            text.lines()
+                .any(|line| line.starts_with(problem.card().name))
+        );
+    }
 }
 
 #[test]
@@ -308,11 +439,15 @@ fn a_study_keeps_the_step_sizes_that_worked() {
         .code(1)
         .get_output()
         .clone();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("with step size 8"), "{said}");
+    // nothing is fitted to what is unknown without saying so
+    let text = String::from_utf8(output.stdout).unwrap();
     assert!(
-        String::from_utf8(output.stderr)
-            .unwrap()
-            .contains("with step size 8")
+        text.contains(" of 13)") && text.contains("unknown"),
+        "{text}"
     );
+    assert!(text.contains("k of n: fitted to"), "{text}");
     let (_, rows) = table(&out.join("convergence.csv"));
     let errors: Vec<f64> = rows.iter().map(|row| row[3].parse().unwrap()).collect();
     assert!(errors.iter().any(|error| error.is_nan()));

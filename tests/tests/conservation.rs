@@ -1,20 +1,27 @@
 //! Conservation on every problem, and the work that it takes.
 //!
 //! The long runs (a million steps each) are the command `pws conserve`; here are ten thousand
-//! steps of each, with the same bounds.
+//! steps of each (of the largest chains, whose steps cost most, two thousand), with the same
+//! bounds.
 
 use dmm_problems::conservation::{Conservation, measure};
 use dmm_problems::problem::Method;
 use dmm_problems::registry::{all, find};
 
 const STEPS: f64 = 10_000.0;
+/// Of systems of more than 16 states.
+const STEPS_OF_LARGE: f64 = 2_000.0;
 
 fn conservation(name: &str, level_correction: bool, step_size: f64) -> Conservation {
     let problem = find(name).unwrap();
     let mut run = problem.default_run();
     run.method = Method::Symmetric { level_correction };
     run.step_size = step_size;
-    run.t_end = STEPS * step_size;
+    run.t_end = step_size
+        * match problem.states().len() {
+            ..=16 => STEPS,
+            _ => STEPS_OF_LARGE,
+        };
     measure(problem.as_ref(), &run, &mut |_| {}).unwrap()
 }
 
@@ -43,6 +50,11 @@ fn levels_are_kept_at_coarse_steps() {
         "saturating_spring",
         "lotka_volterra_periodic",
         "rigid_body",
+        "saturating_inductor",
+        "food_chain",
+        "fput_chain",
+        "toda_chain",
+        "double_pendulum",
     ] {
         let kept = conservation(name, true, 0.2);
         // ten thousand coarse steps, each with roundings of the size of the state

@@ -27,6 +27,13 @@ fn the_output_is_what_comes_out() {
 }
 
 #[test]
+fn the_larger_system_compiles() {
+    let tokens: proc_macro2::TokenStream = block("pws").parse().unwrap();
+    let listing = dmm_compiler::explain(tokens).unwrap();
+    assert!(listing.contains("momentum") && listing.contains("energy"));
+}
+
+#[test]
 fn the_picture_is_there() {
     for line in README.lines().filter(|line| line.starts_with("![")) {
         let path = line.split(['(', ')']).nth(1).unwrap();

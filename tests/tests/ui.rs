@@ -4,9 +4,73 @@
 //! `TRYBUILD=overwrite cargo test -p dmm-tests --test ui` writes them anew, to be read before
 //! they are committed.
 
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use dmm_compiler::diagnostics::catalogue;
+
+/// What no declaration can provoke, with the reason.
+const UNREACHABLE: &[(u16, &str)] = &[(
+    400,
+    "a derived scheme that violates its identities is an error of the compiler",
+)];
+
 #[test]
 fn wrong_declarations_are_reported_and_right_ones_compile() {
     let cases = trybuild::TestCases::new();
     cases.pass("ui/pass/*.rs");
     cases.compile_fail("ui/fail/*.rs");
+}
+
+/// The numbers of the codes `[PWSnnn]` in the expected messages.
+fn expected_codes() -> BTreeSet<u16> {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/fail");
+    let mut codes = BTreeSet::new();
+    for entry in fs::read_dir(directory).expect("the directory of wrong declarations") {
+        let path = entry.expect("a file").path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "stderr")
+        {
+            let text = fs::read_to_string(&path).expect("expected messages");
+            let numbers = text.split("[PWS").skip(1).filter_map(|rest| rest.get(..3));
+            codes.extend(numbers.filter_map(|number| number.parse::<u16>().ok()));
+        }
+    }
+    codes
+}
+
+#[test]
+fn every_code_of_the_catalogue_is_expected_somewhere() {
+    let catalogue: BTreeSet<u16> = catalogue::all().iter().map(|code| code.number).collect();
+    let unreachable: BTreeSet<u16> = UNREACHABLE.iter().map(|(number, _)| *number).collect();
+    let expected = expected_codes();
+    let unknown: Vec<&u16> = expected.difference(&catalogue).collect();
+    assert!(unknown.is_empty(), "not in the catalogue: {unknown:?}");
+    let reached: Vec<&u16> = unreachable.intersection(&expected).collect();
+    assert!(reached.is_empty(), "said to be unreachable: {reached:?}");
+    let missing: Vec<&u16> = catalogue
+        .difference(&expected)
+        .filter(|number| !unreachable.contains(number))
+        .collect();
+    assert!(missing.is_empty(), "in no expected message: {missing:?}");
+}
+
+#[test]
+fn every_message_has_a_code() {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/fail");
+    for entry in fs::read_dir(directory).expect("the directory of wrong declarations") {
+        let path = entry.expect("a file").path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "stderr")
+        {
+            let text = fs::read_to_string(&path).expect("expected messages");
+            let errors = text.lines().filter(|line| line.starts_with("error"));
+            for error in errors {
+                assert!(error.contains("[PWS"), "{}: {error}", path.display());
+            }
+        }
+    }
 }

@@ -95,16 +95,28 @@ pub(super) fn against_reference(name: &str, step_size: f64) {
     }
 }
 
-/// A smooth system against an independent method of high order, at t = 1, 2, 5, 10.
-pub(super) fn against_accurate(name: &str, step_size: f64) {
+/// A system against an independent method of high order, at a tenth, a fifth, a half and the
+/// whole of `t_end`, and at every crossing until then.
+pub(super) fn against_accurate(name: &str, step_size: f64, t_end: f64) {
     let problem = registry::find(name).unwrap();
-    let times = [1.0, 2.0, 5.0, 10.0];
-    let start = &accurate::crossings(&*problem, problem.card().initial, 0.0, 0).unwrap()[0];
+    let times = [0.1, 0.2, 0.5, 1.0].map(|part| part * t_end);
+    let initial = problem.card().initial;
+    let nodes = accurate::crossings(&*problem, initial, t_end, usize::MAX).unwrap();
     let coarse = solve(&*problem, step_size, &times);
     let fine = solve(&*problem, 0.5 * step_size, &times);
-    assert!(coarse.crossings.is_empty());
+    assert_eq!(coarse.crossings.len(), nodes.len() - 1, "{name}");
+    assert_eq!(fine.crossings.len(), nodes.len() - 1, "{name}");
+    // a piecewise-smooth system that never crosses would test nothing of it
+    assert_eq!(nodes.len() > 1, !problem.interfaces().is_empty(), "{name}");
+    let numerical = coarse.crossings.iter().zip(&fine.crossings);
+    for (exact, (coarse, fine)) in nodes.iter().skip(1).zip(numerical) {
+        assert_eq!((coarse.1, fine.1), (exact.region, exact.region), "{name}");
+        let (coarse, fine) = ((coarse.0 - exact.t).abs(), (fine.0 - exact.t).abs());
+        assert_order_two(coarse, fine, &format!("{name}: crossing at {}", exact.t));
+    }
     for (k, &t) in times.iter().enumerate() {
-        let exact = accurate::state_at(&*problem, start, t).unwrap();
+        let before = nodes.partition_point(|node| node.t <= t);
+        let exact = accurate::state_at(&*problem, &nodes[before - 1], t).unwrap();
         let (coarse, fine) = (
             distance(&coarse.states[k], &exact),
             distance(&fine.states[k], &exact),

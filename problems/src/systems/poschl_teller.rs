@@ -37,6 +37,6 @@ pub const CARD: Card = Card {
 mod tests {
     #[test]
     fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("poschl_teller", 1.0 / 256.0);
+        crate::systems::check::against_accurate("poschl_teller", 1.0 / 256.0, 10.0);
     }
 }

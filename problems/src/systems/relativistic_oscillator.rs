@@ -38,6 +38,6 @@ pub const CARD: Card = Card {
 mod tests {
     #[test]
     fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("relativistic_oscillator", 1.0 / 256.0);
+        crate::systems::check::against_accurate("relativistic_oscillator", 1.0 / 256.0, 10.0);
     }
 }

@@ -23,6 +23,8 @@ pws! {
         let p = if x { 1 } else { 2 };
         let q = "x";
         let r = (x + );
+        let s = x ~ 2;
+        let u = sin^2(x);
         der(x) = a;
     }
 }

@@ -31,4 +31,8 @@ pws! {
     system InnerAttribute { state x; der(x) = 1; }
 }
 
+pws! {
+    pub(in 3) system Visibility { state x; der(x) = 1; }
+}
+
 fn main() {}

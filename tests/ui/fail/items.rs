@@ -36,6 +36,9 @@ pws! {
         der(x) 1;
         der(x) = 1
         der(y) = 2;
+        conserved = x;
+        # comment
+        conserved x^2;
         conserved a = x, b = y;
         interface wall = x, floor = y;
         region a { state x; }

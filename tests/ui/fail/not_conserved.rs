@@ -36,13 +36,4 @@ pws! {
     }
 }
 
-pws! {
-    system Undecided {
-        state x, y;
-        der(x) = sqrt(x*y) - sqrt(x)*sqrt(y);
-        der(y) = 0;
-        conserved a = x;
-    }
-}
-
 fn main() {}

@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 1e-3, allow_negative_numbers = true)]
     step: f64,
     /// Number of steps.
-    #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 1_000_000, value_parser = input::count)]
     steps: u64,
     /// Directory of the results.
     #[arg(long, default_value = "output")]

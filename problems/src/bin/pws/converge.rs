@@ -3,10 +3,10 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::convergence::{self, Plan, Study, fitted_order};
+use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, fitted_order, norms};
 use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::{Method, Problem};
-use dmm_problems::reference::Reference;
+use dmm_problems::truth::Truth;
 
 use crate::failure::Failure;
 use crate::input::{self, FormatOption};
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(long = "param", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
     /// The initial state; states not named keep the problem's value.
-    #[arg(long, value_name = "x=1,y=2", allow_hyphen_values = true)]
+    #[arg(long, value_name = "x=1,q[0]=2", allow_hyphen_values = true)]
     initial: Option<String>,
     /// Directory of the results [default: output/PROBLEM].
     #[arg(long)]
@@ -54,7 +54,7 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     if !(arguments.step > 0.0 && arguments.step.is_finite()) {
         return Err(Failure::Request(format!(
             "step size: {} (must be positive and finite)",
-            arguments.step
+            output::number(arguments.step)
         )));
     }
     let plan = Plan {
@@ -62,7 +62,7 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
         after: arguments
             .after
             .clone()
-            .unwrap_or_else(|| default_after(problem)),
+            .map_or_else(|| default_after(problem, &initial), Ok)?,
         step_sizes: halved(arguments.step, arguments.halvings),
         t_end: if problem.interfaces().is_empty() {
             arguments.end
@@ -101,6 +101,12 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
+/// Transitions that are counted to choose after how many of them to measure: a few more than
+/// the largest default.
+const MOST_TRANSITIONS: usize = 31;
+/// Of larger systems groups of states are measured, not each.
+const MOST_STATES: usize = 12;
+
 /// `step`, `step`/2, …
 pub(crate) fn halved(step: f64, halvings: u32) -> Vec<f64> {
     (0..=halvings)
@@ -108,15 +114,31 @@ pub(crate) fn halved(step: f64, halvings: u32) -> Vec<f64> {
         .collect()
 }
 
-fn default_after(problem: &dyn Problem) -> Vec<usize> {
+fn default_after(problem: &dyn Problem, initial: &[f64]) -> Result<Vec<usize>, Failure> {
     if problem.interfaces().is_empty() {
-        return vec![0];
+        return Ok(vec![0]);
     }
-    let total = match Reference::of(problem) {
-        Ok(Some(reference)) => reference.crossings_total as usize,
-        _ => 0,
-    };
-    convergence::default_after(total)
+    let truth = Truth::of(problem, initial, MOST_TRANSITIONS, problem.card().t_end)
+        .map_err(StudyError::from)?;
+    Ok(convergence::default_after(truth.nodes.len() - 1))
+}
+
+/// The measured parts of the state of a row: each state, or of a large system the norm of
+/// each group of them.
+fn parts(problem: &dyn Problem, row: &Row) -> Vec<(String, Vec<f64>)> {
+    let states = problem.states();
+    if states.len() <= MOST_STATES {
+        let components = row.components.iter().cloned();
+        return states
+            .iter()
+            .map(|state| (*state).to_owned())
+            .zip(components)
+            .collect();
+    }
+    output::groups(states)
+        .into_iter()
+        .map(|(name, states)| (format!("‖{name}‖"), norms(&row.components[states])))
+        .collect()
 }
 
 /// The measured quantities of a study: transitions, name, errors.
@@ -127,9 +149,9 @@ pub(crate) fn quantities(problem: &dyn Problem, study: &Study) -> Vec<(usize, St
             let name = format!("time of crossing {}", crossing.number);
             quantities.push((row.transitions, name, crossing.errors.clone()));
         }
-        for (state, errors) in problem.states().iter().zip(&row.components) {
-            let name = format!("{state} at t = {:.4}", row.t);
-            quantities.push((row.transitions, name, errors.clone()));
+        for (part, errors) in parts(problem, row) {
+            let name = format!("{part} at t = {:.4}", row.t);
+            quantities.push((row.transitions, name, errors));
         }
     }
     quantities
@@ -170,13 +192,16 @@ fn print(problem: &dyn Problem, study: &Study) -> Result<(), Failure> {
         [
             "transitions".to_owned(),
             "quantity".to_owned(),
-            format!("error, τ = {first}"),
+            format!("error, τ = {}", output::number(*first)),
             format!("error, τ = {last:.3e}"),
             "order".to_owned(),
         ],
     );
     for (transitions, name, errors) in quantities(problem, study) {
-        let at = |error: Option<&f64>| error.map_or(String::new(), |error| format!("{error:.3e}"));
+        let at = |error: Option<&f64>| match error {
+            Some(error) if !error.is_nan() => format!("{error:.3e}"),
+            _ => "unknown".to_owned(),
+        };
         table.row([
             transitions.to_string(),
             name,
@@ -186,17 +211,36 @@ fn print(problem: &dyn Problem, study: &Study) -> Result<(), Failure> {
         ]);
     }
     table.print()?;
+    if quantities(problem, study)
+        .iter()
+        .any(|(.., errors)| known(errors) < errors.len())
+    {
+        writeln!(
+            out,
+            "k of n: fitted to the k step sizes of n whose error is known and not zero"
+        )?;
+    }
     Ok(())
+}
+
+/// How many errors are numbers that have a logarithm.
+fn known(errors: &[f64]) -> usize {
+    errors.iter().filter(|error| **error > 0.0).count()
 }
 
 /// Errors below this are rounding: the quantity is exact, and there is no order to fit.
 const ROUNDING: f64 = 1e-13;
 
-/// The fitted order.
+/// The fitted order, and to how many of the errors it is fitted if not to all.
 pub(crate) fn order(study: &Study, errors: &[f64]) -> String {
-    match errors.iter().all(|error| *error < ROUNDING) {
-        true => "exact".to_owned(),
-        false => format!("{:.3}", fitted_order(&study.step_sizes, errors)),
+    if errors.iter().all(|error| *error < ROUNDING) {
+        return "exact".to_owned();
+    }
+    let order = fitted_order(&study.step_sizes, errors);
+    match known(errors) {
+        known if known == errors.len() => format!("{order:.3}"),
+        known @ (0 | 1) => format!("none ({known} of {})", errors.len()),
+        known => format!("{order:.3} ({known} of {})", errors.len()),
     }
 }
 
@@ -233,7 +277,9 @@ fn picture(problem: &dyn Problem, study: &Study) -> Picture {
         panel.slope(2, 0);
         panels.push(panel);
     }
-    for (state, name) in problem.states().iter().enumerate() {
+    let rows: Vec<_> = study.rows.iter().map(|row| parts(problem, row)).collect();
+    let names = rows.first().map(Vec::as_slice).unwrap_or_default();
+    for (part, (name, _)) in names.iter().enumerate() {
         let (x, y) = axes(&format!("|{name} − exact|"));
         let mut panel = Panel::new(format!("{name} before and after transitions"), x, y);
         for (k, row) in study.rows.iter().enumerate() {
@@ -244,7 +290,7 @@ fn picture(problem: &dyn Problem, study: &Study) -> Picture {
             });
             panel.curve(
                 label,
-                curve(&row.components[state]),
+                curve(&rows[k][part].1),
                 Stroke::Marked,
                 COLOURS[k % COLOURS.len()],
             );

@@ -73,7 +73,13 @@ impl From<StudyError> for Failure {
 
 impl From<io::Error> for Failure {
     /// Of standard output: everything else names its file.
-    fn from(_: io::Error) -> Self {
-        Self::ReaderGone
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ReaderGone,
+            _ => Self::Write {
+                path: "to standard output".to_owned(),
+                error,
+            },
+        }
     }
 }

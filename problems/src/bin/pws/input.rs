@@ -6,6 +6,7 @@ use dmm_problems::problem::Problem;
 use dmm_problems::registry::{self, Unknown};
 
 use crate::failure::Failure;
+use crate::output::grouped;
 
 /// How pictures are stored.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -25,9 +26,15 @@ impl From<FormatOption> for Format {
 
 /// The problem of that name with `name=value` parameters set.
 pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Box<dyn Problem>, Failure> {
-    let mut problem = registry::find(name)?;
+    let mut problem = registry::find(name).map_err(|unknown| match unknown.closest {
+        Some(_) => Failure::from(unknown),
+        None => Failure::Request(format!("{unknown}; `pws list` names those there are")),
+    })?;
+    let mut given = Vec::new();
     for assignment in parameters {
         let (name, value) = parse_assignment(assignment)?;
+        refuse_second(&mut given, "parameter", &name)?;
+        let name = name.as_str();
         if !problem.set_parameter(name, value) {
             let known = problem.parameters();
             return Err(unknown(
@@ -40,12 +47,15 @@ pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Box<dyn Probl
     Ok(problem)
 }
 
-/// The initial state: that of the problem's card with `x=1,y=2` set.
+/// The initial state: that of the problem's card with `x=1,q[0]=2` set.
 pub(crate) fn initial(problem: &dyn Problem, given: Option<&str>) -> Result<Vec<f64>, Failure> {
     let mut initial = problem.card().initial.to_vec();
     let assignments = given.into_iter().flat_map(|text| text.split(','));
+    let mut given = Vec::new();
     for assignment in assignments {
         let (name, value) = parse_assignment(assignment)?;
+        refuse_second(&mut given, "state", &name)?;
+        let name = name.as_str();
         let states = problem.states();
         match states.iter().position(|state| *state == name) {
             Some(index) => initial[index] = value,
@@ -62,6 +72,25 @@ pub(crate) fn state(problem: &dyn Problem, name: &str) -> Result<usize, Failure>
     found.ok_or_else(|| unknown("state", name, states.iter().copied()))
 }
 
+/// Refuses a name that was given before.
+fn refuse_second(given: &mut Vec<String>, kind: &str, name: &str) -> Result<(), Failure> {
+    if given.iter().any(|before| before == name) {
+        return Err(Failure::Request(format!(
+            "{kind} `{name}` is given twice: name each once"
+        )));
+    }
+    given.push(name.to_owned());
+    Ok(())
+}
+
+/// A whole number, one at least.
+pub(crate) fn count(text: &str) -> Result<u64, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err("must be a whole number, 1 at least".to_owned()),
+    }
+}
+
 fn unknown<'a>(kind: &'static str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
     let known: Vec<&str> = known.collect();
     let closest = registry::closest(name, known.iter().copied());
@@ -75,16 +104,18 @@ fn unknown<'a>(kind: &'static str, name: &str, known: impl Iterator<Item = &'a s
         (None, true) => Failure::Request(format!("unknown {kind} `{name}`: there are none")),
         (None, false) => Failure::Request(format!(
             "unknown {kind} `{name}`; there are {}",
-            known.join(", ")
+            grouped(&known).join(", ")
         )),
     }
 }
 
-fn parse_assignment(text: &str) -> Result<(&str, f64), Failure> {
+/// The name, without blanks, and the value.
+fn parse_assignment(text: &str) -> Result<(String, f64), Failure> {
     let (name, value) = text
         .split_once('=')
         .ok_or_else(|| Failure::Request(format!("`{text}` is not of the form name=value")))?;
-    let (name, value) = (name.trim(), value.trim());
+    let name: String = name.split_whitespace().collect();
+    let value = value.trim();
     match value.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok((name, number)),
         _ => Err(Failure::Request(format!(

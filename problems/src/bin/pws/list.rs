@@ -3,7 +3,7 @@
 use dmm_problems::registry;
 
 use crate::failure::Failure;
-use crate::output::Table;
+use crate::output::{Table, grouped};
 
 /// Prints a line for each problem.
 pub(crate) fn list() -> Result<(), Failure> {
@@ -18,7 +18,7 @@ pub(crate) fn list() -> Result<(), Failure> {
         };
         table.row([
             problem.card().name.to_owned(),
-            problem.states().join(", "),
+            grouped(problem.states()).join(", "),
             interfaces,
             problem.conserved_names(0).join(", "),
             problem.card().title.to_owned(),

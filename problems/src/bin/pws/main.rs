@@ -6,8 +6,10 @@
 
 mod conserve;
 mod converge;
+mod explain;
 mod failure;
 mod input;
+mod invariants;
 mod list;
 mod output;
 mod paper;
@@ -16,6 +18,7 @@ mod progress;
 mod run;
 mod show;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
@@ -37,6 +40,8 @@ enum Command {
     List,
     /// Show a problem: declaration, multipliers, discrete vector field and chosen strategy.
     Show(show::Arguments),
+    /// Explain an error of `pws!` by its number: cause and remedy.
+    Explain(explain::Arguments),
     /// Integrate a problem; write points, transitions and pictures.
     Run(run::Arguments),
     /// Measure errors against the step size, before and after transitions.
@@ -55,6 +60,7 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Command::List => list::list(),
         Command::Show(arguments) => show::show(arguments),
+        Command::Explain(arguments) => explain::explain(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Converge(arguments) => converge::converge(arguments),
         Command::Conserve(arguments) => conserve::conserve(arguments),
@@ -77,8 +83,16 @@ fn refuse(error: &clap::Error) -> ExitCode {
             | ErrorKind::DisplayVersion
             | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
     ) {
-        let _ = error.print();
-        return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        let printed = error.print().and_then(|()| std::io::stdout().flush());
+        return match printed.map_err(Failure::from) {
+            Ok(()) | Err(Failure::ReaderGone) => {
+                ExitCode::from(if error.use_stderr() { 2 } else { 0 })
+            }
+            Err(failure) => {
+                eprintln!("pws: {failure}");
+                ExitCode::from(failure.status())
+            }
+        };
     }
     let text = error.to_string();
     let paragraphs = text.split("\n\n").map(str::trim);

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use dmm_problems::picture::{Format, Picture};
@@ -76,6 +77,38 @@ pub(crate) fn announce(paths: &[PathBuf]) -> io::Result<()> {
     Ok(())
 }
 
+/// Names in their order, the elements of a group as one: `q[3], p` of `q[0], q[1], q[2], p`.
+pub(crate) fn grouped(names: &[&str]) -> Vec<String> {
+    let groups = groups(names);
+    let name = |(name, states): (&str, Range<usize>)| match names[states.start].contains('[') {
+        true => format!("{name}[{}]", states.len()),
+        false => name.to_owned(),
+    };
+    groups.into_iter().map(name).collect()
+}
+
+/// The groups that names belong to, each with the places of its elements; a name without an
+/// index is a group of its own.
+pub(crate) fn groups<'a>(names: &[&'a str]) -> Vec<(&'a str, Range<usize>)> {
+    let mut groups: Vec<(&str, Range<usize>)> = Vec::new();
+    for (place, &name) in names.iter().enumerate() {
+        match (name.split_once('['), groups.last_mut()) {
+            (Some((base, _)), Some((last, places))) if base == *last => places.end = place + 1,
+            (Some((base, _)), _) => groups.push((base, place..place + 1)),
+            (None, _) => groups.push((name, place..place + 1)),
+        }
+    }
+    groups
+}
+
+/// A number as people write it: small and large ones with an exponent.
+pub(crate) fn number(value: f64) -> String {
+    match value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
+        true => format!("{value:e}"),
+        false => value.to_string(),
+    }
+}
+
 /// A table of text, columns aligned; the first column to the left, the others to the right.
 #[derive(Default)]
 pub(crate) struct Table {
@@ -125,5 +158,33 @@ impl Table {
             writeln!(out, "{}", line.trim_end())?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_of_a_group_are_one_name() {
+        assert_eq!(grouped(&["x", "y"]), ["x", "y"]);
+        assert_eq!(
+            grouped(&["q[0]", "q[1]", "p[0]", "p[1]", "s"]),
+            ["q[2]", "p[2]", "s"]
+        );
+        assert_eq!(groups(&["a", "q[0]", "q[1]"]), [("a", 0..1), ("q", 1..3)]);
+        assert!(grouped(&[]).is_empty());
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.25, "-0.25"),
+            (1e-300, "1e-300"),
+            (2.5e20, "2.5e20"),
+        ] {
+            assert_eq!(number(value), text);
+        }
     }
 }

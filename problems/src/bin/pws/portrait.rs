@@ -112,6 +112,9 @@ fn zero_set(g: impl Fn(f64, f64) -> f64, xs: (f64, f64), ys: (f64, f64)) -> Vec<
     zeros
 }
 
+/// A longer legend would hide the curves.
+const MOST_LABELS: usize = 12;
+
 /// Every state against time.
 pub(crate) fn time_series(problem: &dyn Problem, points: &[Kept], title: &str) -> Panel {
     let label = match problem.states() {
@@ -123,13 +126,18 @@ pub(crate) fn time_series(problem: &dyn Problem, points: &[Kept], title: &str) -
         Axis::new("t", Scale::Linear),
         Axis::new(label, Scale::Linear),
     );
+    let labelled = problem.states().len() <= MOST_LABELS;
+    if !labelled {
+        panel.legend = Legend::None;
+    }
     for (state, name) in problem.states().iter().enumerate() {
         let curve = points
             .iter()
             .map(|point| (point.t, point.x[state]))
             .collect();
         let colour = COLOURS[state % COLOURS.len()];
-        panel.curve(Some((*name).to_owned()), curve, Stroke::Solid, colour);
+        let label = labelled.then(|| (*name).to_owned());
+        panel.curve(label, curve, Stroke::Solid, colour);
     }
     panel
 }

@@ -35,10 +35,10 @@ pub(crate) struct Arguments {
     #[arg(long = "param", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
     /// The initial state; states not named keep the problem's value.
-    #[arg(long, value_name = "x=1,y=2", allow_hyphen_values = true)]
+    #[arg(long, value_name = "x=1,q[0]=2", allow_hyphen_values = true)]
     initial: Option<String>,
     /// Write every n-th step to the file of points; transitions and both ends always.
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, default_value_t = 1, value_parser = input::count)]
     every: u64,
     /// The two states of the phase portrait [default: the first two].
     #[arg(long, value_name = "x,y")]
@@ -112,7 +112,7 @@ fn check(problem: &dyn Problem, run: &Run) -> Result<(), Failure> {
     if !(run.t_end.is_finite() && run.t_end > 0.0) {
         return Err(Failure::Request(format!(
             "end time: {} (must be positive and finite)",
-            run.t_end
+            output::number(run.t_end)
         )));
     }
     problem.integrate_silently(&start)?;
@@ -178,7 +178,8 @@ fn summarise(
     writeln!(
         out,
         "reached t = {} with step size {}",
-        finished.t, run.step_size
+        output::number(finished.t),
+        output::number(run.step_size)
     )?;
     writeln!(out, "transitions: {}", finished.transitions)?;
     writeln!(

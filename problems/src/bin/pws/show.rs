@@ -1,20 +1,104 @@
-//! `pws show PROBLEM`
+//! `pws show PROBLEM`, `pws show FILE`
+
+mod file;
 
 use std::io::Write;
+use std::path::Path;
+
+use dmm_compiler::emit;
+use dmm_compiler::scheme::Scheme;
+use dmm_problems::problem::Problem;
+use dmm_problems::registry;
+use proc_macro2::TokenStream;
 
 use crate::failure::Failure;
 use crate::input;
+use crate::invariants;
+use crate::output;
 
 /// What to show.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Name of the problem (see `pws list`).
+    /// Name of the problem (see `pws list`), or a file: Rust with `pws!` in it, or a declaration
+    /// alone.
+    #[arg(value_name = "PROBLEM|FILE")]
     problem: String,
+    /// Write a fragment of a LaTeX document that loads amsmath.
+    #[arg(long)]
+    latex: bool,
+    /// Find the polynomial invariants up to this degree instead, for a system whose conserved
+    /// quantities are not known.
+    #[arg(long, value_name = "DEGREE", conflicts_with = "latex")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    find_invariants: Option<u32>,
 }
 
 /// Prints the declaration and the derived scheme.
 pub(crate) fn show(arguments: &Arguments) -> Result<(), Failure> {
-    let problem = input::problem(&arguments.problem, &[])?;
+    if let Some(degree) = arguments.find_invariants {
+        return find_invariants(arguments, degree);
+    }
+    match own_file(&arguments.problem) {
+        Some(path) => show_file(path, arguments),
+        None => show_problem(&*input::problem(&arguments.problem, &[])?, arguments),
+    }
+}
+
+/// Prints the invariants of what is declared in a file or of a problem.
+fn find_invariants(arguments: &Arguments, degree: u32) -> Result<(), Failure> {
+    match own_file(&arguments.problem) {
+        Some(path) => {
+            let declarations = file::declarations(path)?;
+            invariants::print(declarations, degree, |wrong| file::report(path, wrong))
+        }
+        None => {
+            let problem = input::problem(&arguments.problem, &[])?;
+            let declaration = tokens(&*problem)?;
+            invariants::print(vec![declaration], degree, |wrong| {
+                let messages = wrong.iter().flat_map(|one| one.messages());
+                unreadable(&*problem, &messages.collect::<Vec<_>>().join("; "))
+            })
+        }
+    }
+}
+
+/// The file that is meant: what is no problem's name and is there, or is written like a path.
+fn own_file(text: &str) -> Option<&Path> {
+    let path = Path::new(text);
+    let is_path = path.components().count() > 1 || path.extension().is_some();
+    (is_path || (registry::find(text).is_err() && path.is_file())).then_some(path)
+}
+
+fn show_file(path: &Path, arguments: &Arguments) -> Result<(), Failure> {
+    let mut schemes = Vec::new();
+    let mut wrong = Vec::new();
+    for declaration in file::declarations(path)? {
+        match dmm_compiler::read(declaration) {
+            Ok(scheme) => schemes.push(scheme),
+            Err(diagnostics) => wrong.push(diagnostics),
+        }
+    }
+    if !wrong.is_empty() {
+        return Err(file::report(path, &wrong));
+    }
+    let texts: Vec<String> = schemes
+        .iter()
+        .map(|scheme| listing(scheme, arguments))
+        .collect();
+    print(&texts.join("\n"))
+}
+
+fn listing(scheme: &Scheme, arguments: &Arguments) -> String {
+    match arguments.latex {
+        true => emit::latex(scheme),
+        false => emit::listing(scheme),
+    }
+}
+
+fn show_problem(problem: &dyn Problem, arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.latex {
+        return print(&listing(&scheme(problem)?, arguments));
+    }
     let card = problem.card();
     let mut out = std::io::stdout().lock();
     writeln!(
@@ -22,18 +106,11 @@ pub(crate) fn show(arguments: &Arguments) -> Result<(), Failure> {
         "{}: {}\nsource: {}",
         card.name, card.title, card.source
     )?;
-    let states = problem.states().iter().zip(card.initial);
-    let start: Vec<String> = states
-        .map(|(name, value)| format!("{name} = {value}"))
-        .collect();
-    writeln!(out, "start at t = 0: {}", start.join(", "))?;
-    let parameters = problem.parameters();
-    if !parameters.is_empty() {
-        let values: Vec<String> = parameters
-            .iter()
-            .map(|(name, value)| format!("{name} = {value}"))
-            .collect();
-        writeln!(out, "parameters: {}", values.join(", "))?;
+    let start = assignments(problem.states(), card.initial);
+    writeln!(out, "start at t = 0: {start}")?;
+    let (names, values): (Vec<&str>, Vec<f64>) = problem.parameters().into_iter().unzip();
+    if !names.is_empty() {
+        writeln!(out, "parameters: {}", assignments(&names, &values))?;
     }
     writeln!(
         out,
@@ -45,5 +122,40 @@ pub(crate) fn show(arguments: &Arguments) -> Result<(), Failure> {
     )?;
     // the listing begins with the declaration
     writeln!(out, "\n{}", problem.listing().trim_end())?;
+    Ok(())
+}
+
+/// `x = 1, q = [0, 1, 2]`
+fn assignments(names: &[&str], values: &[f64]) -> String {
+    let groups = output::groups(names).into_iter().map(|(group, places)| {
+        let is_group = names[places.start].contains('[');
+        let values: Vec<String> = values[places].iter().map(f64::to_string).collect();
+        match is_group {
+            true => format!("{group} = [{}]", values.join(", ")),
+            false => format!("{group} = {}", values.concat()),
+        }
+    });
+    groups.collect::<Vec<String>>().join(", ")
+}
+
+/// The scheme of a problem, derived from its declaration once more.
+fn scheme(problem: &dyn Problem) -> Result<Scheme, Failure> {
+    dmm_compiler::read(tokens(problem)?)
+        .map_err(|diagnostics| unreadable(problem, &diagnostics.messages().join("; ")))
+}
+
+/// The declaration of a problem.
+fn tokens(problem: &dyn Problem) -> Result<TokenStream, Failure> {
+    let declaration = problem.declaration().parse();
+    declaration.map_err(|error: proc_macro2::LexError| unreadable(problem, &error.to_string()))
+}
+
+fn unreadable(problem: &dyn Problem, messages: &str) -> Failure {
+    let name = problem.card().name;
+    Failure::Stopped(format!("{name} does not compile: {messages}"))
+}
+
+fn print(text: &str) -> Result<(), Failure> {
+    writeln!(std::io::stdout().lock(), "{}", text.trim_end())?;
     Ok(())
 }
