@@ -15,7 +15,7 @@ mod declarations;
 use std::error::Error;
 use std::path::PathBuf;
 
-use accuracy::{Errors, measure, scheme};
+use accuracy::{Errors, greatest, measure, scheme};
 
 /// Points a step size.
 const POINTS: usize = 10;
@@ -51,6 +51,13 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn errors(errors: &Errors) -> String {
-    let ((median, worst), (mean, greatest)) = (errors.ulps(), errors.parts());
+    let (median, worst) = (median(&errors.ulps), greatest(&errors.ulps));
+    let (mean, greatest) = errors.parts();
     format!("{median:>6.2} {worst:>9.1} {mean:>7.3} {greatest:>6.2}")
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }

@@ -35,7 +35,7 @@ pub(crate) struct Row {
 #[derive(Default)]
 pub(crate) struct Errors {
     /// In ulp of the exact value.
-    ulps: Vec<f64>,
+    pub(crate) ulps: Vec<f64>,
     /// As parts of the a-priori bound of the operations as they are written: ε times each
     /// operation's value, carried to the result by the derivatives. A value that cancels has
     /// many ulps and a bound that allows for them.
@@ -59,11 +59,6 @@ impl Errors {
         self.ulps.len()
     }
 
-    /// The median and the greatest error in ulp.
-    pub(crate) fn ulps(&self) -> (f64, f64) {
-        (median(&self.ulps), greatest(&self.ulps))
-    }
-
     /// The mean and the greatest error as parts of the bound.
     pub(crate) fn parts(&self) -> (f64, f64) {
         let mean = self.parts.iter().sum::<f64>() / self.parts.len().max(1) as f64;
@@ -71,13 +66,8 @@ impl Errors {
     }
 }
 
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
-}
-
-fn greatest(values: &[f64]) -> f64 {
+/// The greatest of errors.
+pub(crate) fn greatest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
