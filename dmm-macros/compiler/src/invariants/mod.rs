@@ -33,6 +33,7 @@ mod generators;
 mod report;
 mod residues;
 mod search;
+mod simplify;
 
 #[cfg(test)]
 mod tests;

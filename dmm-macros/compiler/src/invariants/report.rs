@@ -62,7 +62,7 @@ pub fn report(model: &mut Model, degree: u32) -> Result<String, Obstacle> {
     if found.unresolved > 0 {
         let _ = writeln!(
             text,
-            "\n{} more may be there: their coefficients were too large to be written down or proved",
+            "\nthere may be {} more, with coefficients that could not be written down or proved",
             found.unresolved
         );
     }

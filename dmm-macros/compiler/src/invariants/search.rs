@@ -13,12 +13,7 @@ use super::coefficients::{functions, without_denominators};
 use super::elimination::{Echelon, Entry};
 use super::field::{NARROW, Random, to_coprime_integers};
 use super::residues::Coefficients;
-
-/// How often an invariant is made simpler by adding another one.
-const MOST_REDUCTIONS: usize = 16;
-
-/// How many even powers of states may be written for any other term.
-const MIXED_COST: usize = 3;
+use super::simplify::{MIXED_COST, simplest, total};
 
 /// Equations that are eliminated together.
 const ROWS_AT_ONCE: usize = 16;
@@ -34,9 +29,9 @@ pub(super) struct Search<'a> {
 
 /// A vector of the null space: entries by monomial.
 pub(super) struct Candidate {
-    vector: Vec<Entry>,
-    degree: u32,
-    parameters: Parameters,
+    pub(super) vector: Vec<Entry>,
+    pub(super) degree: u32,
+    pub(super) parameters: Parameters,
 }
 
 /// Gradients of what was found, at a point, to tell what is new.
@@ -90,6 +85,10 @@ impl Search<'_> {
             let group = groups.entry((candidate.degree, depends)).or_default();
             group.push(candidate);
         }
+        let cost = |column: usize| match self.ansatz.is_square_of_states(column) {
+            true => 1,
+            false => MIXED_COST,
+        };
         let mut findings = Findings::default();
         for ((degree, _), mut group) in groups {
             loop {
@@ -98,8 +97,8 @@ impl Search<'_> {
                 let simplest = group
                     .iter()
                     .enumerate()
-                    .map(|(place, one)| (self.simplest(one, candidates, is_new), place))
-                    .min_by_key(|(vector, place)| (total(vector, self.cost()), *place));
+                    .map(|(place, one)| (simplest(one, candidates, cost, is_new), place))
+                    .min_by_key(|(vector, place)| (total(vector, cost), *place));
                 let Some((vector, place)) = simplest else {
                     break;
                 };
@@ -173,39 +172,6 @@ impl Search<'_> {
         Some(echelon.free_columns().into_iter().map(candidate).collect())
     }
 
-    /// What a monomial costs in the choice of an invariant.
-    fn cost(&self) -> impl Fn(usize) -> usize + Copy {
-        |column| match self.ansatz.is_square_of_states(column) {
-            true => 1,
-            false => MIXED_COST,
-        }
-    }
-
-    /// The candidate plus multiples of others of no higher degree, as long as that makes it
-    /// simpler: of an energy and its sum with squares of momenta, the energy.
-    fn simplest(
-        &self,
-        candidate: &Candidate,
-        all: &[Candidate],
-        is_new: impl Fn(&[Entry]) -> bool,
-    ) -> Vec<Entry> {
-        let others = all.iter().filter(|other| {
-            other.parameters == candidate.parameters && other.degree <= candidate.degree
-        });
-        let mut best = candidate.vector.clone();
-        for _ in 0..MOST_REDUCTIONS {
-            let simpler = others
-                .clone()
-                .filter_map(|other| simplified(&best, &other.vector, self.cost()))
-                .filter(|vector| is_new(vector));
-            match simpler.min_by_key(|vector| total(vector, self.cost())) {
-                Some(vector) => best = vector,
-                None => break,
-            }
-        }
-        best
-    }
-
     /// ψ with exact coefficients; `None` if they were not found or not proved.
     fn lift(
         &self,
@@ -261,36 +227,6 @@ pub(super) fn occurring(candidates: &[Candidate]) -> Vec<usize> {
     let vectors = candidates.iter().flat_map(|one| &one.vector);
     let columns: BTreeSet<usize> = vectors.map(|&(column, _)| column).collect();
     columns.into_iter().collect()
-}
-
-/// `vector` plus the multiple of `other` that takes most away, if that leaves something simpler.
-fn simplified(
-    vector: &[Entry],
-    other: &[Entry],
-    cost: impl Fn(usize) -> usize,
-) -> Option<Vec<Entry>> {
-    let mut sum: BTreeMap<usize, u64> = vector.iter().copied().collect();
-    let mut ratios: BTreeMap<u64, usize> = BTreeMap::new();
-    for &(column, value) in other {
-        if let Some(&entry) = sum.get(&column) {
-            let ratio = NARROW.mul(NARROW.neg(entry), NARROW.inverse(value)?);
-            *ratios.entry(ratio).or_default() += cost(column);
-        }
-    }
-    let (&factor, _) = ratios
-        .iter()
-        .max_by_key(|&(&ratio, &taken)| (taken, ratio))?;
-    for &(column, value) in other {
-        let entry = sum.entry(column).or_default();
-        *entry = NARROW.add(*entry, NARROW.mul(factor, value));
-    }
-    let sum: Vec<Entry> = sum.into_iter().filter(|&(_, entry)| entry != 0).collect();
-    (total(&sum, &cost) < total(vector, &cost)).then_some(sum)
-}
-
-/// What the terms of a vector cost together.
-fn total(vector: &[Entry], cost: impl Fn(usize) -> usize) -> usize {
-    vector.iter().map(|&(column, _)| cost(column)).sum()
 }
 
 /// Σ coefficient·monomial of these columns, with the sign for which squares of states, and then

@@ -167,7 +167,7 @@ fn atoms_of_the_field_occur() {
     accepted(
         "state x, y; param m = 1, k = 2; der(x) = y/m; der(y) = -k*sinh(x);",
         2,
-        &["2*k*m*cosh(x) + y^2"],
+        &["2*m*k*cosh(x) + y^2"],
     );
     accepted(
         "state x, y; der(x) = y/(1 + x^2); der(y) = x/(1 + x^2);",
@@ -253,6 +253,28 @@ fn regions_are_reported_one_by_one() {
         "in all regions:\n    conserved invariant_1 = z;\n\n\
          in the region `up`:\n    conserved invariant_2 = x^2 + y^2;\n\n\
          in the region `down`:\n    conserved invariant_3 = 3*x^2 + y^2;\n"
+    );
+}
+
+/// Energy, momenta, angular momentum; and that of the centre of mass, whose coefficients are
+/// not products of powers, may be there.
+#[test]
+fn three_bodies() {
+    let items = "state x[3], y[3], u[3], v[3]; param m[3] = [1, 2, 3];
+        hamiltonian H = sum(i in 0..3, (u[i]^2 + v[i]^2)/(2*m[i]))
+            - sum(i in 0..3, m[i]*m[(i+1)%3]/sqrt((x[i] - x[(i+1)%3])^2 + (y[i] - y[(i+1)%3])^2))
+            in (x, u), (y, v);";
+    let offered = offered(items, 2);
+    assert!(offered.len() >= 4, "{offered:?}");
+    assert_eq!(offered[0], "conserved invariant_1 = u[0] + u[1] + u[2];");
+    assert_eq!(offered[1], "conserved invariant_2 = v[0] + v[1] + v[2];");
+    assert!(
+        offered.iter().any(|line| line.contains("x[0]*v[0]")),
+        "{offered:?}"
+    );
+    assert!(
+        offered.iter().any(|line| line.contains("sqrt")),
+        "{offered:?}"
     );
 }
 
