@@ -64,7 +64,9 @@ fn show_prints_declaration_and_scheme() {
 fn invariants_are_found_and_accepted() {
     let text = said(&["show", "pendulum", "--find-invariants", "2"]);
     assert!(text.contains("in all regions:\n    none up to degree 2"));
-    assert!(text.contains("in the region `left`:\n    conserved invariant_1 = p^2 - 2*k_left*cos(q);"));
+    assert!(
+        text.contains("in the region `left`:\n    conserved invariant_1 = p^2 - 2*k_left*cos(q);")
+    );
 
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("duffing.pws");
@@ -72,7 +74,10 @@ fn invariants_are_found_and_accepted() {
     fs::write(&file, format!("{system} }}")).unwrap();
     let path = file.to_str().unwrap();
     let text = said(&["show", path, "--find-invariants", "4"]);
-    let found = text.lines().find(|line| line.contains("conserved")).unwrap();
+    let found = text
+        .lines()
+        .find(|line| line.contains("conserved"))
+        .unwrap();
     assert_eq!(found.trim(), "conserved invariant_1 = 2*x^2 + 2*v^2 + x^4;");
     fs::write(&file, format!("{system} {found} }}")).unwrap();
     assert!(said(&["show", path]).contains("invariant_1"));
@@ -84,9 +89,14 @@ fn invariants_are_found_and_accepted() {
     let refused = refusal(&["show", "fput_chain_32", "--find-invariants", "3"]);
     assert!(refused.contains("ask for a degree up to 2"));
     fs::write(&file, "system S { state x; der(x) = y; }").unwrap();
-    let output = pws(&["show", path, "--find-invariants", "2"]).assert().code(2);
+    let output = pws(&["show", path, "--find-invariants", "2"])
+        .assert()
+        .code(2);
     let text = String::from_utf8(output.get_output().stderr.clone()).unwrap();
-    assert!(text.contains("duffing.pws:1:30: `y` is not declared"), "{text}");
+    assert!(
+        text.contains("duffing.pws:1:30: `y` is not declared"),
+        "{text}"
+    );
 }
 
 #[test]
