@@ -6,10 +6,11 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::code::{Block, plain};
+use super::code::Block;
 use super::lower::Lowered;
 use super::names::Names;
 use super::paths;
+use super::readable::plain;
 use super::store::Store;
 use crate::algebra::{Id, Math, Name};
 

@@ -17,6 +17,7 @@ mod names;
 mod nodes;
 mod operations;
 mod paths;
+mod readable;
 mod store;
 mod system;
 

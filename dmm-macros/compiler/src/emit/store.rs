@@ -7,10 +7,11 @@ use egg::Language;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::code::{Block, plain, suggestion};
+use super::code::Block;
 use super::lower::Lowered;
 use super::names::Names;
 use super::paths;
+use super::readable::{plain, suggestion};
 use crate::algebra::{Id, Math, Name, to_text};
 
 /// The fields of an emitted struct.

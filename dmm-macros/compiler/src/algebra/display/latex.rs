@@ -9,16 +9,12 @@ use std::fmt::Write;
 
 use num_traits::{One, Signed};
 
-use super::formula::{Formula, FormulaId, Formulas, Product, Term};
+use super::formula::{FormulaId, Formulas, Product};
 use super::symbol::{End, Symbol};
 use super::text::{self, Letters};
 use super::unicode;
+use super::writer::{Notation, Precedence, Writer, Written};
 use crate::algebra::{Function, PairFunction, Rational};
-
-/// Parts are cut off below this many levels.
-const DEEPEST_NESTING: usize = 120;
-/// A formula is cut off after this many parts.
-const LARGEST_TEXT: usize = 4_000;
 
 /// How names are written; different names always differently.
 #[derive(Debug, Clone)]
@@ -83,13 +79,7 @@ pub fn write(formulas: &Formulas, root: FormulaId, style: &Style) -> String {
 
 /// The terms of `root`, if it is a sum: each with its sign.
 pub fn terms(formulas: &Formulas, root: FormulaId, style: &Style) -> Vec<String> {
-    let mut writer = Writer::new(formulas, style);
-    match &formulas[root] {
-        Formula::Sum(terms) => (terms.iter().enumerate())
-            .map(|(place, &term)| writer.term(place == 0, term))
-            .collect(),
-        _ => vec![writer.operand(root, Precedence::Sum)],
-    }
+    Writer::new(formulas, style).terms(root)
 }
 
 /// A symbol in LaTeX.
@@ -126,94 +116,41 @@ pub fn shared(number: usize, in_row: bool, style: &Style) -> String {
     }
 }
 
-/// How tightly the outermost operation binds.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Precedence {
-    Sum,
-    Product,
-    /// Holds together in a product, but cannot be raised to a power.
-    Factor,
-    Atom,
-}
+impl Notation for &Style {
+    const DOTS: &'static str = r"\dots";
+    const PI: &'static str = r"\pi";
+    const EXPONENT: Precedence = Precedence::Sum;
+    const TOTAL: Precedence = Precedence::Product;
 
-type Written = (String, Precedence);
-
-struct Writer<'a> {
-    formulas: &'a Formulas,
-    style: &'a Style,
-    budget: usize,
-    depth: usize,
-}
-
-impl<'a> Writer<'a> {
-    fn new(formulas: &'a Formulas, style: &'a Style) -> Self {
-        Self {
-            formulas,
-            style,
-            budget: LARGEST_TEXT,
-            depth: 0,
+    fn constant(&self, value: &Rational) -> Written {
+        let sign = if value.is_negative() { "-" } else { "" };
+        let size = value.abs();
+        if size.is_integer() {
+            let precedence = match value.is_negative() {
+                true => Precedence::Product,
+                false => Precedence::Atom,
+            };
+            return (format!("{sign}{size}"), precedence);
         }
+        (
+            format!(r"{sign}\frac{{{}}}{{{}}}", size.numer(), size.denom()),
+            Precedence::Product,
+        )
     }
 
-    fn operand(&mut self, id: FormulaId, least: Precedence) -> String {
-        let (text, precedence) = self.formula(id);
-        parenthesised(text, precedence < least)
-    }
-
-    fn formula(&mut self, id: FormulaId) -> Written {
-        if self.budget == 0 || self.depth >= DEEPEST_NESTING {
-            return (r"\dots".into(), Precedence::Atom);
-        }
-        self.budget -= 1;
-        self.depth += 1;
-        let formulas = self.formulas;
-        let written = match &formulas[id] {
-            Formula::Constant(value) => constant(value),
-            Formula::Pi => (r"\pi".into(), Precedence::Atom),
-            Formula::Symbol(variable) => {
-                let precedence = match variable.component {
-                    Some(_) => Precedence::Factor,
-                    None => Precedence::Atom,
-                };
-                (symbol(variable, self.style), precedence)
-            }
-            Formula::Shared { number, in_row } => {
-                (shared(*number, *in_row, self.style), Precedence::Atom)
-            }
-            Formula::Call(function, u) => self.call(*function, *u),
-            Formula::Pair(function, [a, b]) => {
-                let a = self.operand(*a, Precedence::Sum);
-                let b = self.operand(*b, Precedence::Sum);
-                let name = divided_difference(*function);
-                (format!(r"{name}\left({a}, {b}\right)"), Precedence::Factor)
-            }
-            Formula::Power(base, exponent) => {
-                let base = self.operand(*base, Precedence::Atom);
-                let exponent = self.operand(*exponent, Precedence::Sum);
-                (format!("{base}^{{{exponent}}}"), Precedence::Factor)
-            }
-            Formula::Total { term, first, last } => {
-                let term = self.operand(*term, Precedence::Product);
-                let letter = &self.style.letters.term;
-                (
-                    format!(r"\sum_{{{letter}={first}}}^{{{last}}} {term}"),
-                    Precedence::Product,
-                )
-            }
-            Formula::Sum(terms) => {
-                let terms = (terms.iter().enumerate())
-                    .map(|(place, &term)| self.term(place == 0, term))
-                    .collect();
-                (terms, Precedence::Sum)
-            }
-            Formula::Product(product) => self.product(product),
+    fn symbol(&self, variable: &Symbol) -> Written {
+        let precedence = match variable.component {
+            Some(_) => Precedence::Factor,
+            None => Precedence::Atom,
         };
-        self.depth -= 1;
-        written
+        (symbol(variable, self), precedence)
     }
 
-    fn call(&mut self, function: Function, u: FormulaId) -> Written {
-        let argument = self.operand(u, Precedence::Sum);
+    fn shared(&self, number: usize, in_row: bool) -> String {
+        shared(number, in_row, self)
+    }
+
+    fn call(&self, function: Function, argument: &str) -> Written {
         let name = match function {
             Function::Sqrt => return (format!(r"\sqrt{{{argument}}}"), Precedence::Factor),
             Function::Abs => {
@@ -235,38 +172,39 @@ impl<'a> Writer<'a> {
             Function::Sinhc => r"\operatorname{sinhc}",
             Function::SinhcPrime => r"\operatorname{sinhc}'",
         };
-        (
-            format!(r"{name}\left({argument}\right)"),
-            Precedence::Factor,
-        )
+        let call = format!(r"{name}\left({argument}\right)");
+        (call, Precedence::Factor)
     }
 
-    /// A term with its sign.
-    fn term(&mut self, is_first: bool, term: Term) -> String {
-        let sign = match (is_first, term.negative) {
-            (true, false) => "",
-            (true, true) => "-",
-            (false, false) => " + ",
-            (false, true) => " - ",
-        };
-        let (text, precedence) = self.formula(term.formula);
-        let text = parenthesised(text, precedence == Precedence::Sum);
-        format!("{sign}{text}")
+    fn pair(&self, function: PairFunction, [a, b]: [&str; 2]) -> Written {
+        let name = divided_difference(function);
+        (format!(r"{name}\left({a}, {b}\right)"), Precedence::Factor)
     }
 
-    fn product(&mut self, product: &Product) -> Written {
+    fn power(&self, base: &str, exponent: &str) -> String {
+        format!("{base}^{{{exponent}}}")
+    }
+
+    fn total(&self, term: &str, first: usize, last: usize) -> Written {
+        let letter = &self.letters.term;
+        let total = format!(r"\sum_{{{letter}={first}}}^{{{last}}} {term}");
+        (total, Precedence::Product)
+    }
+
+    fn product(writer: &mut Writer<'_, Self>, product: &Product) -> Written {
         let sign = if product.negative { "-" } else { "" };
-        let is_fraction = !product.below.is_empty() || !product.constant.denom().is_one();
+        let (numerator, denominator) = (product.constant.numer(), product.constant.denom());
+        let is_fraction = !product.below.is_empty() || !denominator.is_one();
         // the bar of a fraction brackets
         let least = match is_fraction {
             true => Precedence::Sum,
             false => Precedence::Product,
         };
-        let above = self.side(product.constant.numer().to_string(), &product.above, least);
+        let above = side(writer, numerator.to_string(), &product.above, least);
         if !is_fraction {
             return (format!("{sign}{above}"), Precedence::Product);
         }
-        let below = self.side(product.constant.denom().to_string(), &product.below, least);
+        let below = side(writer, denominator.to_string(), &product.below, least);
         let precedence = match product.negative {
             true => Precedence::Product,
             false => Precedence::Factor,
@@ -274,45 +212,37 @@ impl<'a> Writer<'a> {
         (format!(r"{sign}\frac{{{above}}}{{{below}}}"), precedence)
     }
 
-    /// A constant and factors; a factor that is alone needs to bind as tightly as `least`.
-    fn side(&mut self, constant: String, factors: &[FormulaId], least: Precedence) -> String {
-        let has_constant = constant != "1" || factors.is_empty();
-        if let ([only], false) = (factors, has_constant) {
-            return self.operand(*only, least);
-        }
-        let mut text = String::new();
-        if has_constant {
-            text.push_str(&constant);
-        }
-        for &factor in factors {
-            let (written, precedence) = self.formula(factor);
-            let written = parenthesised(written, precedence < Precedence::Factor);
-            // 2 3 would be read as 23
-            let digit = written.starts_with(|letter: char| letter.is_ascii_digit());
-            let _ = match (text.is_empty(), digit) {
-                (true, _) => write!(text, "{written}"),
-                (false, true) => write!(text, r" \cdot {written}"),
-                (false, false) => write!(text, r" \, {written}"),
-            };
-        }
-        text
+    fn in_parentheses(text: &str) -> String {
+        format!(r"\left({text}\right)")
     }
 }
 
-fn constant(value: &Rational) -> Written {
-    let sign = if value.is_negative() { "-" } else { "" };
-    let size = value.abs();
-    if size.is_integer() {
-        let precedence = match value.is_negative() {
-            true => Precedence::Product,
-            false => Precedence::Atom,
-        };
-        return (format!("{sign}{size}"), precedence);
+/// A constant and factors; a factor that is alone needs to bind as tightly as `least`.
+fn side(
+    writer: &mut Writer<'_, &Style>,
+    constant: String,
+    factors: &[FormulaId],
+    least: Precedence,
+) -> String {
+    let has_constant = constant != "1" || factors.is_empty();
+    if let ([only], false) = (factors, has_constant) {
+        return writer.operand(*only, least);
     }
-    (
-        format!(r"{sign}\frac{{{}}}{{{}}}", size.numer(), size.denom()),
-        Precedence::Product,
-    )
+    let mut text = String::new();
+    if has_constant {
+        text.push_str(&constant);
+    }
+    for &factor in factors {
+        let written = writer.operand(factor, Precedence::Factor);
+        // 2 3 would be read as 23
+        let digit = written.starts_with(|letter: char| letter.is_ascii_digit());
+        let _ = match (text.is_empty(), digit) {
+            (true, _) => write!(text, "{written}"),
+            (false, true) => write!(text, r" \cdot {written}"),
+            (false, false) => write!(text, r" \, {written}"),
+        };
+    }
+    text
 }
 
 /// A divided difference, or its derivative in the second argument.
@@ -324,13 +254,5 @@ fn divided_difference(function: PairFunction) -> &'static str {
         PairFunction::AsinDdPrime => r"\operatorname{dd}'_{\arcsin}",
         PairFunction::AtanDd => r"\operatorname{dd}_{\arctan}",
         PairFunction::AtanDdPrime => r"\operatorname{dd}'_{\arctan}",
-    }
-}
-
-fn parenthesised(text: String, needed: bool) -> String {
-    if needed {
-        format!(r"\left({text}\right)")
-    } else {
-        text
     }
 }

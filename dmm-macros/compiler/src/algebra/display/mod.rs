@@ -11,6 +11,7 @@
 //! ```
 
 mod build;
+mod collect;
 pub mod formula;
 pub mod latex;
 pub mod patterns;
@@ -19,6 +20,7 @@ pub mod size;
 pub mod symbol;
 pub mod text;
 pub mod unicode;
+mod writer;
 
 use super::{Dag, Id};
 pub use formula::{Formula, FormulaId, Formulas};

@@ -2,15 +2,10 @@
 
 use num_traits::{One, Signed};
 
-use super::formula::{Formula, FormulaId, Formulas, Product, Term};
+use super::formula::{FormulaId, Formulas, Product};
 use super::symbol::{End, Position, Symbol};
-use crate::algebra::Rational;
-
-/// A formula is cut off with `…` after this many parts (as a tree it may be exponentially
-/// larger than its arena).
-const LARGEST_TEXT: usize = 4_000;
-/// Parts are cut off with `…` below this many levels.
-const DEEPEST_NESTING: usize = 120;
+use super::writer::{Notation, Precedence, Writer, Written};
+use crate::algebra::{Function, PairFunction, Rational};
 
 /// The letters of a text that a declaration has a say in.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,13 +43,7 @@ pub fn write_with(formulas: &Formulas, root: FormulaId, letters: &Letters) -> St
 
 /// The terms of `root`, if it is a sum: each with its sign, ` + ` or ` - ` between them.
 pub fn terms(formulas: &Formulas, root: FormulaId, letters: &Letters) -> Vec<String> {
-    let mut writer = Writer::new(formulas, letters);
-    match &formulas[root] {
-        Formula::Sum(terms) => (terms.iter().enumerate())
-            .map(|(place, &term)| writer.term(place == 0, term))
-            .collect(),
-        _ => vec![writer.operand(root, Precedence::Sum)],
-    }
+    Writer::new(formulas, letters).terms(root)
 }
 
 /// A symbol as text.
@@ -105,142 +94,71 @@ pub fn shared(number: usize, in_row: bool, letters: &Letters) -> String {
     name
 }
 
-/// How tightly the outermost operation of a text binds.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Precedence {
-    Sum,
-    Product,
-    Power,
-    Atom,
-}
+impl Notation for &Letters {
+    const DOTS: &'static str = "…";
+    const PI: &'static str = "pi";
+    const EXPONENT: Precedence = Precedence::Atom;
+    const TOTAL: Precedence = Precedence::Sum;
 
-/// A text with its outermost operation.
-type Written = (String, Precedence);
-
-struct Writer<'a> {
-    formulas: &'a Formulas,
-    letters: &'a Letters,
-    budget: usize,
-    depth: usize,
-}
-
-impl<'a> Writer<'a> {
-    fn new(formulas: &'a Formulas, letters: &'a Letters) -> Self {
-        Self {
-            formulas,
-            letters,
-            budget: LARGEST_TEXT,
-            depth: 0,
-        }
-    }
-
-    /// `id`, in parentheses where it binds less tightly than `least`.
-    fn operand(&mut self, id: FormulaId, least: Precedence) -> String {
-        let (text, precedence) = self.formula(id);
-        parenthesised(text, precedence < least)
-    }
-
-    fn formula(&mut self, id: FormulaId) -> Written {
-        if self.budget == 0 || self.depth >= DEEPEST_NESTING {
-            return ("…".into(), Precedence::Atom);
-        }
-        self.budget -= 1;
-        self.depth += 1;
-        let formulas = self.formulas;
-        let written = match &formulas[id] {
-            Formula::Constant(value) => constant(value),
-            Formula::Pi => ("pi".into(), Precedence::Atom),
-            Formula::Symbol(variable) => (symbol(variable, self.letters), Precedence::Atom),
-            Formula::Shared { number, in_row } => {
-                (shared(*number, *in_row, self.letters), Precedence::Atom)
-            }
-            Formula::Call(function, u) => {
-                let argument = self.operand(*u, Precedence::Sum);
-                (format!("{function}({argument})"), Precedence::Atom)
-            }
-            Formula::Pair(function, [a, b]) => {
-                let a = self.operand(*a, Precedence::Sum);
-                let b = self.operand(*b, Precedence::Sum);
-                (format!("{function}({a}, {b})"), Precedence::Atom)
-            }
-            Formula::Power(base, exponent) => {
-                let base = self.operand(*base, Precedence::Atom);
-                let exponent = self.operand(*exponent, Precedence::Atom);
-                (format!("{base}^{exponent}"), Precedence::Power)
-            }
-            Formula::Total { term, first, last } => {
-                let term = self.operand(*term, Precedence::Sum);
-                let (letter, end) = (&self.letters.term, last + 1);
-                (
-                    format!("sum({letter} in {first}..{end}, {term})"),
-                    Precedence::Atom,
-                )
-            }
-            Formula::Sum(terms) => {
-                let terms = (terms.iter().enumerate())
-                    .map(|(place, &term)| self.term(place == 0, term))
-                    .collect();
-                (terms, Precedence::Sum)
-            }
-            Formula::Product(product) => self.product(product),
+    fn constant(&self, value: &Rational) -> Written {
+        let precedence = if value.is_negative() || !value.is_integer() {
+            Precedence::Product
+        } else {
+            Precedence::Atom
         };
-        self.depth -= 1;
-        written
+        (value.to_string(), precedence)
     }
 
-    /// A term with its sign.
-    fn term(&mut self, is_first: bool, term: Term) -> String {
-        let sign = match (is_first, term.negative) {
-            (true, false) => "",
-            (true, true) => "-",
-            (false, false) => " + ",
-            (false, true) => " - ",
+    fn symbol(&self, variable: &Symbol) -> Written {
+        (symbol(variable, self), Precedence::Atom)
+    }
+
+    fn shared(&self, number: usize, in_row: bool) -> String {
+        shared(number, in_row, self)
+    }
+
+    fn call(&self, function: Function, argument: &str) -> Written {
+        (format!("{function}({argument})"), Precedence::Atom)
+    }
+
+    fn pair(&self, function: PairFunction, [a, b]: [&str; 2]) -> Written {
+        (format!("{function}({a}, {b})"), Precedence::Atom)
+    }
+
+    fn power(&self, base: &str, exponent: &str) -> String {
+        format!("{base}^{exponent}")
+    }
+
+    fn total(&self, term: &str, first: usize, last: usize) -> Written {
+        let (letter, end) = (&self.term, last + 1);
+        let total = format!("sum({letter} in {first}..{end}, {term})");
+        (total, Precedence::Atom)
+    }
+
+    fn product(writer: &mut Writer<'_, Self>, product: &Product) -> Written {
+        let (numerator, denominator) = (product.constant.numer(), product.constant.denom());
+        let mut above: Vec<String> = Vec::new();
+        if !numerator.is_one() || product.above.is_empty() {
+            above.push(numerator.to_string());
+        }
+        let mut below: Vec<String> = Vec::new();
+        if !denominator.is_one() {
+            below.push(denominator.to_string());
+        }
+        let mut factor = |factor: &FormulaId| writer.operand(*factor, Precedence::Factor);
+        above.extend(product.above.iter().map(&mut factor));
+        below.extend(product.below.iter().map(&mut factor));
+        let sign = if product.negative { "-" } else { "" };
+        let (above, count, below) = (above.join("*"), below.len(), below.join("*"));
+        let text = match count {
+            0 => format!("{sign}{above}"),
+            1 => format!("{sign}{above}/{below}"),
+            _ => format!("{sign}{above}/({below})"),
         };
-        let (text, precedence) = self.formula(term.formula);
-        let text = parenthesised(text, precedence == Precedence::Sum);
-        format!("{sign}{text}")
-    }
-
-    fn product(&mut self, product: &Product) -> Written {
-        let number = |value: String| (value, Precedence::Atom);
-        let mut above: Vec<Written> = Vec::new();
-        if !product.constant.numer().is_one() || product.above.is_empty() {
-            above.push(number(product.constant.numer().to_string()));
-        }
-        let mut below: Vec<Written> = Vec::new();
-        if !product.constant.denom().is_one() {
-            below.push(number(product.constant.denom().to_string()));
-        }
-        above.extend(product.above.iter().map(|&factor| self.formula(factor)));
-        below.extend(product.below.iter().map(|&factor| self.formula(factor)));
-        let mut text = if product.negative { "-" } else { "" }.to_owned();
-        text.push_str(&joined(&above));
-        match below.len() {
-            0 => {}
-            1 => text.extend(["/", &joined(&below)]),
-            _ => text.extend(["/(", &joined(&below), ")"]),
-        }
         (text, Precedence::Product)
     }
-}
 
-fn constant(value: &Rational) -> Written {
-    let precedence = if value.is_negative() || !value.is_integer() {
-        Precedence::Product
-    } else {
-        Precedence::Atom
-    };
-    (value.to_string(), precedence)
-}
-
-fn joined(factors: &[Written]) -> String {
-    let texts: Vec<String> = factors
-        .iter()
-        .map(|(text, precedence)| parenthesised(text.clone(), *precedence < Precedence::Power))
-        .collect();
-    texts.join("*")
-}
-
-fn parenthesised(text: String, needed: bool) -> String {
-    if needed { format!("({text})") } else { text }
+    fn in_parentheses(text: &str) -> String {
+        format!("({text})")
+    }
 }
