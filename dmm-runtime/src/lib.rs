@@ -65,7 +65,7 @@ pub use minimal_norm::MinimalNorm;
 pub use observer::{Observer, Point, Transition};
 pub use recording::Recording;
 pub use scalar::Scalar;
-pub use scheme::{Correction, Scheme, Symmetric};
+pub use scheme::{Correction, Scheme, Step, Symmetric};
 pub use solution::{Interrupted, Solution};
 pub use state::State;
 pub use statistics::Statistics;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::observer::{Observer, Point, Transition};
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, Step};
 use crate::statistics::Statistics;
 use crate::system::{Flow, FlowVisitor, System, Vector};
 use crate::time::Grid;
@@ -117,9 +117,15 @@ impl<Sch: Scheme, const N: usize> FlowVisitor<N> for Reach<'_, Sch, N> {
         while t < self.to {
             let end = self.grid.value(node).min(self.to);
             let tau = end - t;
+            let step = Step {
+                flow,
+                t0: t,
+                x0: &self.x,
+                tau,
+            };
             self.x += self
                 .scheme
-                .partial_step(flow, t, &self.x, tau, &mut Statistics::default())
+                .step(&step, &mut Statistics::default())
                 .map_err(|failure| failure.at(t, &self.x, tau, self.region))?;
             t = end;
             node += 1;

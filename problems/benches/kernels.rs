@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use dmm_problems::systems::elliptic::Elliptic;
 use dmm_problems::systems::harmonic::Harmonic;
-use dmm_runtime::{Integrator, Symmetric};
+use dmm_runtime::{Integrator, Symmetric, System};
 
 const STEP_SIZE: f64 = 1e-3;
 const END: f64 = 1000.0;
@@ -32,44 +32,29 @@ fn main() {
     let (harmonic, elliptic) = (Harmonic::default(), Elliptic::default());
     compare(
         "harmonic, closed form",
-        || {
-            generated(|t| {
-                Integrator::new(&harmonic, Symmetric::step_size(STEP_SIZE))
-                    .initial(0.0, [1.0, 1.0])
-                    .observe_until(t, &mut ())
-                    .map(|end| Run {
-                        x: end.point.x.into(),
-                        steps: end.statistics.steps,
-                        iterations: end.statistics.newton_iterations,
-                        transitions: end.statistics.transitions,
-                    })
-                    .map_err(dmm_runtime::Error::from)
-            })
-        },
+        || generated(&harmonic, [1.0, 1.0]),
         || hand::run::<hand::Harmonic>([1.0, 1.0]),
     );
     compare(
         "elliptic, Newton",
-        || {
-            generated(|t| {
-                Integrator::new(&elliptic, Symmetric::step_size(STEP_SIZE))
-                    .initial(0.0, [-1.0, -1.0])
-                    .observe_until(t, &mut ())
-                    .map(|end| Run {
-                        x: end.point.x.into(),
-                        steps: end.statistics.steps,
-                        iterations: end.statistics.newton_iterations,
-                        transitions: end.statistics.transitions,
-                    })
-                    .map_err(dmm_runtime::Error::from)
-            })
-        },
+        || generated(&elliptic, [-1.0, -1.0]),
         || hand::run::<hand::Elliptic>([-1.0, -1.0]),
     );
 }
 
-fn generated(run: impl Fn(f64) -> Result<Run, dmm_runtime::Error>) -> Run {
-    run(END).expect("the problem is integrated to its end")
+/// T = END by the library.
+fn generated<Sys: System<2>>(system: &Sys, x: [f64; 2]) -> Run {
+    let end = Integrator::new(system, Symmetric::step_size(STEP_SIZE))
+        .initial(0.0, x)
+        .observe_until(END, &mut ())
+        .map_err(dmm_runtime::Error::from)
+        .expect("the problem is integrated to its end");
+    Run {
+        x: end.point.x.into(),
+        steps: end.statistics.steps,
+        iterations: end.statistics.newton_iterations,
+        transitions: end.statistics.transitions,
+    }
 }
 
 /// Runs both in turn and prints their ratio.

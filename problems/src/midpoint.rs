@@ -2,7 +2,7 @@
 //! method of order 2 that Hirani, Wan & Wojtalewicz compare with (their Figs 5 and 8). It
 //! does not conserve ψ.
 
-use dmm_runtime::{Correction, Flow, Scheme, Statistics, StepFailure, Vector};
+use dmm_runtime::{Correction, Flow, Scheme, Statistics, Step, StepFailure, Vector};
 
 /// The explicit midpoint rule with uniform steps, without a correction of the level.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -18,10 +18,7 @@ impl ExplicitMidpoint {
 }
 
 fn increment<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
-    t0: f64,
-    x0: &Vector<f64, N>,
-    tau: f64,
+    &Step { flow, t0, x0, tau }: &Step<'_, F, N>,
 ) -> Vector<f64, N> {
     let half = 0.5 * tau;
     let middle = x0 + flow.vector_field(t0, x0) * half;
@@ -49,25 +46,10 @@ impl Scheme for ExplicitMidpoint {
 
     fn step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
-        flow: &F,
-        (): &mut (),
-        t0: f64,
-        x0: &Vector<f64, N>,
-        tau: f64,
-        statistics: &mut Statistics,
-    ) -> Result<Vector<f64, N>, StepFailure> {
-        self.partial_step(flow, t0, x0, tau, statistics)
-    }
-
-    fn partial_step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-        &self,
-        flow: &F,
-        t0: f64,
-        x0: &Vector<f64, N>,
-        tau: f64,
+        step: &Step<'_, F, N>,
         _statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
-        let increment = increment(flow, t0, x0, tau);
+        let increment = increment(step);
         match increment.iter().all(|component| component.is_finite()) {
             true => Ok(increment),
             false => Err(StepFailure::NotFinite),
@@ -78,13 +60,11 @@ impl Scheme for ExplicitMidpoint {
     /// linearly with that factor, to the same point.
     fn correction<const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
-        flow: &F,
-        t0: f64,
-        x0: &Vector<f64, N>,
-        tau: f64,
+        step: &Step<'_, F, N>,
         current: &Vector<f64, N>,
     ) -> Option<Correction<N>> {
-        let end = increment(flow, t0, x0, tau);
+        let end = increment(step);
+        let &Step { flow, t0, x0, tau } = step;
         Some(Correction {
             delta: end - current,
             velocity: flow.vector_field(t0 + tau, &(x0 + end)),

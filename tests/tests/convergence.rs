@@ -2,7 +2,7 @@
 //! digits: the scheme's order 2 everywhere, and order 1 where crossings are located with an
 //! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
 
-use dmm_problems::convergence::{Plan, Study, fitted_order, study};
+use dmm_problems::convergence::{Plan, Row, Study, fitted_order, study};
 use dmm_problems::problem::Method;
 use dmm_problems::registry::find;
 
@@ -11,6 +11,9 @@ const HALVINGS: std::ops::RangeInclusive<i32> = 7..=11;
 
 /// When smooth systems are compared: before chaos has enlarged the errors.
 const T_SMOOTH: f64 = 10.0;
+
+/// What a fitted order may be off by.
+const TOLERANCE: f64 = 0.03;
 
 fn measured(
     name: &str,
@@ -34,12 +37,19 @@ fn measured(
     study
 }
 
-fn assert_order(study: &Study, errors: &[f64], order: f64, tolerance: f64, what: &str) {
+fn assert_order(study: &Study, errors: &[f64], order: f64, what: &str) {
     let fitted = fitted_order(&study.step_sizes, errors);
     assert!(
-        (fitted - order).abs() <= tolerance,
+        (fitted - order).abs() <= TOLERANCE,
         "{what}: order {fitted}, {errors:?}"
     );
+}
+
+/// The time of the row's crossing is of order 2.
+fn assert_crossing_order(study: &Study, row: &Row, name: &str) {
+    let crossing = row.crossing.as_ref().unwrap();
+    let what = format!("{name}, time of crossing {}", crossing.number);
+    assert_order(study, &crossing.errors, 2.0, &what);
 }
 
 #[test]
@@ -49,11 +59,9 @@ fn the_papers_systems_have_order_2_before_and_after_transitions() {
         for row in &study.rows {
             for (i, errors) in row.components.iter().enumerate() {
                 let what = format!("{name}, component {i} after {}", row.transitions);
-                assert_order(&study, errors, 2.0, 0.03, &what);
+                assert_order(&study, errors, 2.0, &what);
             }
-            let crossing = row.crossing.as_ref().unwrap();
-            let what = format!("{name}, time of crossing {}", crossing.number);
-            assert_order(&study, &crossing.errors, 2.0, 0.03, &what);
+            assert_crossing_order(&study, row, name);
         }
     }
 }
@@ -72,7 +80,7 @@ fn every_strategy_keeps_the_order_across_transitions() {
         for row in &study.rows {
             // a single component may happen to have a small leading coefficient
             let what = format!("{name}, after {}", row.transitions);
-            assert_order(&study, &row.norms(), 2.0, 0.03, &what);
+            assert_order(&study, &row.norms(), 2.0, &what);
         }
     }
 }
@@ -91,10 +99,8 @@ fn chains_and_circuits_keep_the_order_across_transitions() {
         let study = measured(name, Method::SYMMETRIC, after, halvings);
         for row in &study.rows {
             let what = format!("{name}, after {}", row.transitions);
-            assert_order(&study, &row.norms(), 2.0, 0.03, &what);
-            let crossing = row.crossing.as_ref().unwrap();
-            let what = format!("{name}, time of crossing {}", crossing.number);
-            assert_order(&study, &crossing.errors, 2.0, 0.03, &what);
+            assert_order(&study, &row.norms(), 2.0, &what);
+            assert_crossing_order(&study, row, name);
         }
     }
 }
@@ -112,7 +118,7 @@ fn smooth_systems_have_order_2() {
     ] {
         let study = measured(name, Method::SYMMETRIC, &[0], 7..=10);
         let row = &study.rows[0];
-        assert_order(&study, &row.norms(), 2.0, 0.03, name);
+        assert_order(&study, &row.norms(), 2.0, name);
     }
 }
 
@@ -129,14 +135,12 @@ fn crossings_located_to_first_order_cost_an_order() {
             &study,
             &study.rows[0].norms(),
             2.0,
-            0.03,
             &format!("{name}, before"),
         );
         assert_order(
             &study,
             &study.rows[1].norms(),
             1.0,
-            0.03,
             &format!("{name}, after 10"),
         );
     }

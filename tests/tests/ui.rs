@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use dmm_compiler::diagnostics::catalogue;
 
@@ -23,20 +23,26 @@ fn wrong_declarations_are_reported_and_right_ones_compile() {
     cases.compile_fail("ui/fail/*.rs");
 }
 
+/// The files of expected messages, with their texts.
+fn expected_messages() -> Vec<(PathBuf, String)> {
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/fail");
+    fs::read_dir(directory)
+        .expect("the directory of wrong declarations")
+        .map(|entry| entry.expect("a file").path())
+        .filter(|path| path.extension().is_some_and(|it| it == "stderr"))
+        .map(|path| {
+            let text = fs::read_to_string(&path).expect("expected messages");
+            (path, text)
+        })
+        .collect()
+}
+
 /// The numbers of the codes `[PWSnnn]` in the expected messages.
 fn expected_codes() -> BTreeSet<u16> {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/fail");
     let mut codes = BTreeSet::new();
-    for entry in fs::read_dir(directory).expect("the directory of wrong declarations") {
-        let path = entry.expect("a file").path();
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "stderr")
-        {
-            let text = fs::read_to_string(&path).expect("expected messages");
-            let numbers = text.split("[PWS").skip(1).filter_map(|rest| rest.get(..3));
-            codes.extend(numbers.filter_map(|number| number.parse::<u16>().ok()));
-        }
+    for (_, text) in expected_messages() {
+        let numbers = text.split("[PWS").skip(1).filter_map(|rest| rest.get(..3));
+        codes.extend(numbers.filter_map(|number| number.parse::<u16>().ok()));
     }
     codes
 }
@@ -59,18 +65,10 @@ fn every_code_of_the_catalogue_is_expected_somewhere() {
 
 #[test]
 fn every_message_has_a_code() {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/fail");
-    for entry in fs::read_dir(directory).expect("the directory of wrong declarations") {
-        let path = entry.expect("a file").path();
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "stderr")
-        {
-            let text = fs::read_to_string(&path).expect("expected messages");
-            let errors = text.lines().filter(|line| line.starts_with("error"));
-            for error in errors {
-                assert!(error.contains("[PWS"), "{}: {error}", path.display());
-            }
+    for (path, text) in expected_messages() {
+        let errors = text.lines().filter(|line| line.starts_with("error"));
+        for error in errors {
+            assert!(error.contains("[PWS"), "{}: {error}", path.display());
         }
     }
 }

@@ -13,6 +13,19 @@ use crate::error::StepFailure;
 use crate::statistics::Statistics;
 use crate::system::{Flow, Vector};
 
+/// A step to be made.
+#[derive(Debug)]
+pub struct Step<'a, F, const N: usize> {
+    /// The flow of the region.
+    pub flow: &'a F,
+    /// t₀, the start of the step.
+    pub t0: f64,
+    /// x₀, the state there.
+    pub x0: &'a Vector<f64, N>,
+    /// τ, its size.
+    pub tau: f64,
+}
+
 /// A one-step scheme with uniform steps.
 ///
 /// The scheme is asked for increments d = x₁ − x₀ rather than for x₁, so that they keep their
@@ -35,42 +48,36 @@ pub trait Scheme: Clone {
         x: &Vector<f64, N>,
     ) -> Self::Memory<N>;
 
-    /// The increment of a full step from (t₀, x₀): `tau` is the step size up to rounding
-    /// errors of the time, and the flow and its segment are those of `memory`.
+    /// The increment of a full step: τ is the step size up to rounding errors of the time, and
+    /// the flow and its segment are those of `memory`. By default the same as of any other step.
+    ///
+    /// # Errors
+    /// If the implicit equation has no solution or a formula no finite value.
+    #[inline]
+    fn full_step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        step: &Step<'_, F, N>,
+        _memory: &mut Self::Memory<N>,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure> {
+        self.step(step, statistics)
+    }
+
+    /// The increment of a step of any size.
     ///
     /// # Errors
     /// If the implicit equation has no solution or a formula no finite value.
     fn step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
-        flow: &F,
-        memory: &mut Self::Memory<N>,
-        t0: f64,
-        x0: &Vector<f64, N>,
-        tau: f64,
+        step: &Step<'_, F, N>,
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure>;
 
-    /// The increment of a step of any size `tau` from (t₀, x₀).
-    ///
-    /// # Errors
-    /// If the implicit equation has no solution or a formula no finite value.
-    fn partial_step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-        &self,
-        flow: &F,
-        t0: f64,
-        x0: &Vector<f64, N>,
-        tau: f64,
-        statistics: &mut Statistics,
-    ) -> Result<Vector<f64, N>, StepFailure>;
-
-    /// One Newton correction of an approximate increment d of a step `tau`, and the velocity
-    /// ∂d/∂τ of the one-step map there: what Newton's method in (τ, d) is made of.
+    /// One Newton correction of an approximate increment d of a step, and the velocity ∂d/∂τ
+    /// of the one-step map there: what Newton's method in (τ, d) is made of.
     fn correction<const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
-        flow: &F,
-        t0: f64,
-        x0: &Vector<f64, N>,
-        tau: f64,
+        step: &Step<'_, F, N>,
         increment: &Vector<f64, N>,
     ) -> Option<Correction<N>>;
 }

@@ -4,7 +4,7 @@
 
 use crate::error::StepFailure;
 use crate::linear::{is_finite, solve};
-use crate::scheme::Correction;
+use crate::scheme::{Correction, Step};
 use crate::statistics::Statistics;
 use crate::system::{Flow, Matrix, Vector};
 
@@ -22,15 +22,16 @@ const SHARE_OF_STATE: f64 = 2.441_406_25e-4; // 2⁻¹²
 /// A residual this small against its terms is rounding error.
 const ROUNDING: f64 = 8.881_784_197_001_252e-16; // 4ε
 
-/// The step whose equation is to be solved.
-pub(super) struct Step<'a, F, const N: usize> {
-    pub(super) flow: &'a F,
-    pub(super) t0: f64,
-    pub(super) x0: &'a Vector<f64, N>,
-    pub(super) tau: f64,
-}
-
 impl<F, const N: usize> Step<'_, F, N> {
+    /// The increment of the explicit Euler step.
+    #[inline]
+    pub(super) fn euler<const M: usize>(&self) -> Vector<f64, N>
+    where
+        F: Flow<f64, N, M>,
+    {
+        self.flow.vector_field(self.t0, self.x0) * self.tau
+    }
+
     /// F(d) and I − τ ∂f^τ/∂x₁.
     #[inline]
     fn residual<const M: usize>(
@@ -116,7 +117,7 @@ impl<F, const N: usize> Step<'_, F, N> {
     where
         F: Flow<f64, N, M>,
     {
-        let mut increment = self.flow.vector_field(self.t0, self.x0) * self.tau;
+        let mut increment = self.euler::<M>();
         let (mut residual, mut matrix) = self.residual::<M>(&increment);
         let mut iterations = 0;
         while iterations < LARGEST_ITERATIONS {

@@ -8,7 +8,7 @@
 //! [`Integrator::locator`]: crate::Integrator::locator
 
 use crate::error::StepFailure;
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, Step};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Vector};
@@ -58,6 +58,16 @@ pub trait Locator {
 }
 
 impl<Sch: Scheme, F, const N: usize> Crossing<'_, Sch, F, N> {
+    /// The part of the step until `elapsed`.
+    fn part(&self, elapsed: f64) -> Step<'_, F, N> {
+        Step {
+            flow: self.flow,
+            t0: self.t0,
+            x0: &self.state.x,
+            tau: elapsed,
+        }
+    }
+
     /// x(t₀ + elapsed) − x₀ by one step of the scheme.
     ///
     /// # Errors
@@ -70,8 +80,7 @@ impl<Sch: Scheme, F, const N: usize> Crossing<'_, Sch, F, N> {
     where
         F: Flow<f64, N, M>,
     {
-        self.scheme
-            .partial_step(self.flow, self.t0, &self.state.x, elapsed, statistics)
+        self.scheme.step(&self.part(elapsed), statistics)
     }
 
     /// g (positive in the region that is left), ∂ₜg and ∇g after `increment`, the state's
@@ -124,13 +133,8 @@ impl NewtonLocator {
             velocity * elapsed + (upper - velocity * crossing.upper) * (part * part);
         for _ in 0..Self::LARGEST_ITERATIONS {
             statistics.locator_iterations += 1;
-            let correction = crossing.scheme.correction(
-                crossing.flow,
-                crossing.t0,
-                &crossing.state.x,
-                elapsed,
-                &increment,
-            )?;
+            let step = crossing.part(elapsed);
+            let correction = crossing.scheme.correction(&step, &increment)?;
             let (value, rate, gradient) = crossing.switching(elapsed, &increment);
             let slope = rate + gradient.dot(&correction.velocity);
             let delta = -(value + gradient.dot(&correction.delta)) / slope;

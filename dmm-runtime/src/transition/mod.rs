@@ -2,11 +2,14 @@
 //! the point where it is crossed.
 
 mod locate;
+mod meeting;
+mod reading;
 mod start;
 pub(crate) mod watch;
 
 pub use locate::{Crossing, Located, Locator, NewtonLocator};
-pub(crate) use start::{Start, check_region, find_region, neighbour, rate_in};
+pub(crate) use meeting::Meeting;
+pub(crate) use start::{Start, check_region, find_region};
 
 use crate::system::{Boundary, Flow, Vector};
 

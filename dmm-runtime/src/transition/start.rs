@@ -6,12 +6,9 @@
 //! to name the region.
 
 use crate::error::Error;
-use crate::scalar::Scalar;
-use crate::system::{Boundary, Flow, FlowVisitor, Side, System, Vector};
-use crate::transition::rate;
-
-/// g this many rounding errors of its terms away from zero is on the interface.
-const NOISE: f64 = 8.0;
+use crate::system::{Side, System, Vector};
+use crate::transition::Meeting;
+use crate::transition::reading::Reading;
 
 /// Where an integration starts.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -19,65 +16,6 @@ pub(crate) struct Start<R> {
     pub(crate) region: R,
     /// The interface that it starts on.
     pub(crate) interface: Option<usize>,
-}
-
-/// The value of g, the size of its terms and dg/dt under the flow of a region.
-struct Reading {
-    value: f64,
-    size: f64,
-    rate: f64,
-}
-
-impl Reading {
-    fn is_zero(&self) -> bool {
-        self.value.abs() <= NOISE * f64::ROUNDING * self.size
-    }
-}
-
-/// Reads one interface.
-struct Read<'a, const N: usize> {
-    interface: usize,
-    t: f64,
-    x: &'a Vector<f64, N>,
-}
-
-impl<const N: usize> FlowVisitor<N> for Read<'_, N> {
-    type Output = Reading;
-
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Reading {
-        let boundary = flow.boundary();
-        Reading {
-            value: boundary.switching_function(self.interface, self.t, self.x),
-            size: boundary.switching_size(self.interface, self.t, self.x),
-            rate: rate(flow, self.interface, self.t, self.x),
-        }
-    }
-}
-
-/// dg/dt under the flow of `region`.
-pub(crate) fn rate_in<Sys: System<N>, const N: usize>(
-    system: &Sys,
-    region: Sys::Region,
-    interface: usize,
-    t: f64,
-    x: &Vector<f64, N>,
-) -> f64 {
-    system.visit(region, Read { interface, t, x }).rate
-}
-
-/// The region on the other side of `interface`.
-pub(crate) fn neighbour<Sys: System<N>, const N: usize>(
-    region: Sys::Region,
-    interface: usize,
-) -> Option<Sys::Region> {
-    let sides = Sys::sides(region);
-    Sys::REGIONS.iter().copied().find(|&other| {
-        Sys::sides(other)
-            .iter()
-            .zip(sides)
-            .enumerate()
-            .all(|(index, (a, b))| (a == b) == (index != interface))
-    })
 }
 
 /// Determines the region of a start at (t, x) that names none.
@@ -94,7 +32,7 @@ pub(crate) fn find_region<Sys: System<N>, const N: usize>(
     let mut on = None;
     let first = *Sys::REGIONS.first().ok_or_else(no_region)?;
     for interface in 0..Sys::INTERFACES.len() {
-        let reading = system.visit(first, Read { interface, t, x });
+        let reading = Reading::new(system, first, interface, t, x);
         if reading.is_zero() {
             on = Some(interface);
             sides.push(Side::Positive);
@@ -128,14 +66,9 @@ fn decide_by_rates<Sys: System<N>, const N: usize>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
-    let point = || x.iter().copied().collect::<Vec<f64>>();
-    let below =
-        neighbour::<Sys, N>(above, interface).ok_or_else(|| Error::NoRegion { t, x: point() })?;
-    let (up, down) = (
-        rate_in(system, above, interface, t, x),
-        rate_in(system, below, interface, t, x),
-    );
-    let name = Sys::INTERFACES[interface];
+    let up = Reading::new(system, above, interface, t, x).rate;
+    let meeting = Meeting::new(system, (above, up), interface, t, x)?;
+    let (below, down) = (meeting.to, meeting.rate_to);
     let start = |region| {
         Ok(Start {
             region,
@@ -145,29 +78,9 @@ fn decide_by_rates<Sys: System<N>, const N: usize>(
     match (up > 0.0, up < 0.0, down > 0.0, down < 0.0) {
         (true, _, true, _) => start(above),
         (_, true, _, true) => start(below),
-        (_, true, true, _) => Err(Error::Sliding {
-            t,
-            x: point(),
-            interface: name,
-            from: Sys::region_name(above),
-            to: Sys::region_name(below),
-            rate_from: up,
-            rate_to: down,
-        }),
-        (true, _, _, true) => Err(Error::AmbiguousStart {
-            t,
-            x: point(),
-            interface: name,
-        }),
-        _ => Err(Error::Tangential {
-            t,
-            x: point(),
-            interface: name,
-            from: Sys::region_name(above),
-            to: Sys::region_name(below),
-            rate_from: up,
-            rate_to: down,
-        }),
+        (_, true, true, _) => Err(meeting.sliding()),
+        (true, _, _, true) => Err(meeting.ambiguous()),
+        _ => Err(meeting.tangential()),
     }
 }
 
@@ -180,7 +93,7 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
 ) -> Result<Start<Sys::Region>, Error> {
     let mut on = None;
     for (interface, side) in Sys::sides(region).iter().enumerate() {
-        let reading = system.visit(region, Read { interface, t, x });
+        let reading = Reading::new(system, region, interface, t, x);
         if reading.is_zero() {
             if side.sign() * reading.rate <= 0.0 {
                 return Err(Error::InvalidInput {

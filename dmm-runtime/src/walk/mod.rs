@@ -16,7 +16,7 @@ use crate::error::{Error, StepFailure};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, Step};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{Flow, System, Vector};
@@ -158,20 +158,17 @@ where
             && t <= end.value
         {
             let elapsed = Time::new(t).since(self.time).max(0.0).min(tau);
-            let x0 = &self.state.x;
+            let step = Step {
+                flow,
+                t0: self.time.value,
+                x0: &self.state.x,
+                tau: elapsed,
+            };
             let increment = match elapsed > 0.0 {
                 true => self
                     .scheme
-                    .partial_step(
-                        flow,
-                        self.time.value,
-                        x0,
-                        elapsed,
-                        &mut Statistics::default(),
-                    )
-                    .map_err(|failure| {
-                        failure.at(self.time.value, x0, elapsed, Sys::region_name(self.region))
-                    })?,
+                    .step(&step, &mut Statistics::default())
+                    .map_err(|failure| self.failure(failure, elapsed))?,
                 false => Vector::zeros(),
             };
             let point = Point {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::observer::{Observer, Transition};
 use crate::scheme::Scheme;
 use crate::system::System;
-use crate::transition::{Locator, neighbour, rate_in};
+use crate::transition::{Locator, Meeting};
 use crate::walk::{SegmentEnd, Walk};
 
 /// Transitions that one step may have.
@@ -68,34 +68,15 @@ where
     Obs: Observer<Sys::Region, N>,
 {
     let (t, x) = (walk.time.value, walk.state.x);
-    let point = || x.iter().copied().collect::<Vec<f64>>();
     let from = walk.region;
-    let to =
-        neighbour::<Sys, N>(from, interface).ok_or_else(|| Error::NoRegion { t, x: point() })?;
-    let rate_to = rate_in(walk.system, to, interface, t, &x);
-    let name = Sys::INTERFACES[interface];
+    let meeting = Meeting::new(walk.system, (from, rate_from), interface, t, &x)?;
+    let Meeting { to, rate_to, .. } = meeting;
     let inwards = Sys::sides(to)[interface].sign();
     if rate_to * inwards < 0.0 {
-        return Err(Error::Sliding {
-            t,
-            x: point(),
-            interface: name,
-            from: Sys::region_name(from),
-            to: Sys::region_name(to),
-            rate_from,
-            rate_to,
-        });
+        return Err(meeting.sliding());
     }
     if rate_to * inwards == 0.0 || rate_to.is_nan() {
-        return Err(Error::Tangential {
-            t,
-            x: point(),
-            interface: name,
-            from: Sys::region_name(from),
-            to: Sys::region_name(to),
-            rate_from,
-            rate_to,
-        });
+        return Err(meeting.tangential());
     }
     Ok(Transition {
         t,

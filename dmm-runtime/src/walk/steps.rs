@@ -4,7 +4,7 @@ use crate::error::{Error, StepFailure};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, Step};
 use crate::statistics::Statistics;
 use crate::system::{Flow, FlowVisitor, System};
 use crate::time::Time;
@@ -79,10 +79,13 @@ where
             } else {
                 t1 - t0
             };
-            let step = self
-                .scheme
-                .step(flow, &mut memory, t0, &state.x, tau, &mut counts);
-            let increment = match step {
+            let step = Step {
+                flow,
+                t0,
+                x0: &state.x,
+                tau,
+            };
+            let increment = match self.scheme.full_step(&step, &mut memory, &mut counts) {
                 Ok(increment) => increment,
                 Err(failure) => break Err(failure),
             };
@@ -145,10 +148,15 @@ where
         let tau = end.since(self.time);
         // zero where a transition was at this node, negative where a locator moved it beyond
         if tau > 0.0 {
-            let t0 = self.time.value;
+            let step = Step {
+                flow,
+                t0: self.time.value,
+                x0: &self.state.x,
+                tau,
+            };
             let increment = self
                 .scheme
-                .partial_step(flow, t0, &self.state.x, tau, &mut self.statistics)
+                .step(&step, &mut self.statistics)
                 .map_err(|failure| self.failure(failure, tau))?;
             if let Some(end) = self.look(flow, level, watches, tau, &increment)? {
                 return Ok(Some(end));

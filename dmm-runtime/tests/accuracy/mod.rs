@@ -7,7 +7,7 @@ mod samples;
 
 use dmm_runtime::special;
 use reference::{Big, distance, exact, is_representable};
-use samples::{Random, Sampler};
+use samples::*;
 
 /// The error admitted everywhere, in ulp of the exact value.
 pub(crate) const BOUND: f64 = 2.0;
@@ -65,105 +65,89 @@ impl Case {
     }
 }
 
+/// Ranges of arguments: in words, and how they are sampled.
+type Ranges = &'static [(&'static str, Sampler)];
+
+const SMALL: Ranges = &[("|u| < 1/4", small), ("1/4 < |u| < 4", moderate)];
+const LARGE: Ranges = &[("4 < |u| < 1e300", large)];
+const HYPERBOLIC: Ranges = &[("4 < |u| < 717", hyperbolic)];
+const SINC_ZEROS: Ranges = &[("next to k pi", sinc_zeros)];
+const SINC_PRIME_ZEROS: Ranges = &[
+    ("next to tan u = u", sinc_prime_zeros),
+    ("near tan u = u", sinc_prime_neighbourhoods),
+];
+const SEAMS: Ranges = &[("changes of form", seams), ("subnormal", least)];
+const EXPONENTS: Ranges = &[
+    ("ab from -745 to 709", exponents),
+    ("overflow, subnormal, large a", extreme_exponents),
+];
+const POSITIVE: Ranges = &[
+    ("a = b", positive_coincident),
+    ("|ln b/a| from 1e-17 to 0.1", positive_nearby),
+    ("|ln b/a| from 0.1 to 4", positive_moderate),
+    ("a, b from 1e-300 to 1e300", positive_apart),
+    ("changes of form", positive_seams),
+    ("largest and least", positive_extreme),
+];
+const UNIT: Ranges = &[
+    ("a = b", unit_coincident),
+    ("b - a from 1e-17 a to 0.1 a", unit_nearby),
+    ("uniform", unit_uniform),
+    ("a, b next to +-1 or 0", unit_ends),
+    ("b = -a", unit_opposite),
+    ("changes of form", unit_seams),
+    ("subnormal", least),
+];
+const ASIN_PRIME_ZEROS: Ranges = &[
+    ("next to the zero", asin_dd_prime_zeros),
+    ("b = -a/2", half_opposite),
+];
+const REAL: Ranges = &[
+    ("a = b", real_coincident),
+    ("b - a from 1e-17 a to 0.1 a", real_nearby),
+    ("a, b from 0.01 to 100", real_moderate),
+    ("a, b from 1e-300 to 1e300", real_apart),
+    ("b = -a", real_opposite),
+    ("1 + ab near 0", real_orthogonal),
+    ("changes of form", real_seams),
+    ("largest", largest),
+    ("subnormal", least),
+];
+const ATAN_PRIME_ZEROS: Ranges = &[
+    ("next to the zero", atan_dd_prime_zeros),
+    ("b = -a/2", half_opposite),
+];
+
 /// The table of cases; what is written for a function is how it is called with (a, b).
 macro_rules! cases {
-    ($($name:ident($call:expr): $($range:literal, $sampler:ident;)+)+) => {
-        vec![$($(Case {
-            name: stringify!($name),
-            range: $range,
-            function: $call,
-            reference: exact::$name,
-            sampler: samples::$sampler,
-        },)+)+]
-    };
+    ($($name:ident($call:expr): $($ranges:ident)+;)+) => {{
+        let mut cases = Vec::new();
+        $(for &(range, sampler) in [$($ranges),+].into_iter().flatten() {
+            cases.push(Case {
+                name: stringify!($name),
+                range,
+                function: $call,
+                reference: exact::$name,
+                sampler,
+            });
+        })+
+        cases
+    }};
 }
 
 /// Every function on every range.
 pub(crate) fn cases() -> Vec<Case> {
     cases! {
-        sinc(|u, _| special::sinc(u)):
-            "|u| < 1/4", small;
-            "1/4 < |u| < 4", moderate;
-            "4 < |u| < 1e300", large;
-            "next to k pi", sinc_zeros;
-            "changes of form", seams;
-            "subnormal", least;
-        sinc_prime(|u, _| special::sinc_prime(u)):
-            "|u| < 1/4", small;
-            "1/4 < |u| < 4", moderate;
-            "4 < |u| < 1e300", large;
-            "next to tan u = u", sinc_prime_zeros;
-            "near tan u = u", sinc_prime_neighbourhoods;
-            "changes of form", seams;
-            "subnormal", least;
-        sinhc(|u, _| special::sinhc(u)):
-            "|u| < 1/4", small;
-            "1/4 < |u| < 4", moderate;
-            "4 < |u| < 717", hyperbolic;
-            "changes of form", seams;
-            "subnormal", least;
-        sinhc_prime(|u, _| special::sinhc_prime(u)):
-            "|u| < 1/4", small;
-            "1/4 < |u| < 4", moderate;
-            "4 < |u| < 717", hyperbolic;
-            "changes of form", seams;
-            "subnormal", least;
-        exp_product(special::exp_product):
-            "ab from -745 to 709", exponents;
-            "overflow, subnormal, large a", extreme_exponents;
-        ln_dd(special::ln_dd):
-            "a = b", positive_coincident;
-            "|ln b/a| from 1e-17 to 0.1", positive_nearby;
-            "|ln b/a| from 0.1 to 4", positive_moderate;
-            "a, b from 1e-300 to 1e300", positive_apart;
-            "changes of form", positive_seams;
-            "largest and least", positive_extreme;
-        ln_dd_prime(special::ln_dd_prime):
-            "a = b", positive_coincident;
-            "|ln b/a| from 1e-17 to 0.1", positive_nearby;
-            "|ln b/a| from 0.1 to 4", positive_moderate;
-            "a, b from 1e-300 to 1e300", positive_apart;
-            "changes of form", positive_seams;
-            "largest and least", positive_extreme;
-        asin_dd(special::asin_dd):
-            "a = b", unit_coincident;
-            "b - a from 1e-17 a to 0.1 a", unit_nearby;
-            "uniform", unit_uniform;
-            "a, b next to +-1 or 0", unit_ends;
-            "b = -a", unit_opposite;
-            "changes of form", unit_seams;
-            "subnormal", least;
-        asin_dd_prime(special::asin_dd_prime):
-            "a = b", unit_coincident;
-            "b - a from 1e-17 a to 0.1 a", unit_nearby;
-            "uniform", unit_uniform;
-            "a, b next to +-1 or 0", unit_ends;
-            "b = -a", unit_opposite;
-            "changes of form", unit_seams;
-            "subnormal", least;
-            "next to the zero", asin_dd_prime_zeros;
-            "b = -a/2", half_opposite;
-        atan_dd(special::atan_dd):
-            "a = b", real_coincident;
-            "b - a from 1e-17 a to 0.1 a", real_nearby;
-            "a, b from 0.01 to 100", real_moderate;
-            "a, b from 1e-300 to 1e300", real_apart;
-            "b = -a", real_opposite;
-            "1 + ab near 0", real_orthogonal;
-            "changes of form", real_seams;
-            "largest", largest;
-            "subnormal", least;
-        atan_dd_prime(special::atan_dd_prime):
-            "a = b", real_coincident;
-            "b - a from 1e-17 a to 0.1 a", real_nearby;
-            "a, b from 0.01 to 100", real_moderate;
-            "a, b from 1e-300 to 1e300", real_apart;
-            "b = -a", real_opposite;
-            "1 + ab near 0", real_orthogonal;
-            "changes of form", real_seams;
-            "largest", largest;
-            "subnormal", least;
-            "next to the zero", atan_dd_prime_zeros;
-            "b = -a/2", half_opposite;
+        sinc(|u, _| special::sinc(u)): SMALL LARGE SINC_ZEROS SEAMS;
+        sinc_prime(|u, _| special::sinc_prime(u)): SMALL LARGE SINC_PRIME_ZEROS SEAMS;
+        sinhc(|u, _| special::sinhc(u)): SMALL HYPERBOLIC SEAMS;
+        sinhc_prime(|u, _| special::sinhc_prime(u)): SMALL HYPERBOLIC SEAMS;
+        exp_product(special::exp_product): EXPONENTS;
+        ln_dd(special::ln_dd): POSITIVE;
+        ln_dd_prime(special::ln_dd_prime): POSITIVE;
+        asin_dd(special::asin_dd): UNIT;
+        asin_dd_prime(special::asin_dd_prime): UNIT ASIN_PRIME_ZEROS;
+        atan_dd(special::atan_dd): REAL;
+        atan_dd_prime(special::atan_dd_prime): REAL ATAN_PRIME_ZEROS;
     }
 }

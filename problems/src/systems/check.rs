@@ -1,5 +1,5 @@
-//! What every system's test checks: crossings and samples against the exact solution, at two
-//! step sizes, so that the order of both is seen.
+//! A test for every system: crossings and states against the exact solution, at two step sizes,
+//! so that the order of both is seen.
 
 use std::ops::ControlFlow;
 
@@ -64,63 +64,122 @@ fn assert_order_two(coarse: f64, fine: f64, what: &str) {
     );
 }
 
-/// A piecewise-smooth system against its reference data: as many crossings, to the same
-/// sides, their times and the samples with errors of second order.
-pub(super) fn against_reference(name: &str, step_size: f64) {
+/// The solution to compare with.
+struct Exact {
+    /// How many crossings there are until the last sample.
+    count: usize,
+    /// The first of them: times and regions entered.
+    crossings: Vec<(f64, usize)>,
+    /// Times and states.
+    samples: Vec<(f64, Vec<f64>)>,
+}
+
+/// As many crossings, into the same regions, their times and the states with errors of second
+/// order.
+fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
+    let name = problem.card().name;
+    let times: Vec<f64> = exact.samples.iter().map(|(t, _)| *t).collect();
+    let coarse = solve(problem, step_size, &times);
+    let fine = solve(problem, 0.5 * step_size, &times);
+    assert_eq!(coarse.crossings.len(), exact.count, "{name}");
+    assert_eq!(fine.crossings.len(), exact.count, "{name}");
+    let numerical = coarse.crossings.iter().zip(&fine.crossings);
+    for (&(t, region), (coarse, fine)) in exact.crossings.iter().zip(numerical) {
+        assert_eq!((coarse.1, fine.1), (region, region), "{name}");
+        let (coarse, fine) = ((coarse.0 - t).abs(), (fine.0 - t).abs());
+        assert_order_two(coarse, fine, &format!("{name}: crossing at {t}"));
+    }
+    let numerical = coarse.states.iter().zip(&fine.states);
+    for ((t, exact), (coarse, fine)) in exact.samples.iter().zip(numerical) {
+        let (coarse, fine) = (distance(coarse, exact), distance(fine, exact));
+        assert_order_two(coarse, fine, &format!("{name}: state at {t}"));
+    }
+}
+
+/// A piecewise-smooth system against its reference data.
+fn against_reference(name: &str, step_size: f64) {
     let problem = registry::find(name).unwrap();
     let reference = Reference::of(&*problem).unwrap().unwrap();
-    let samples: Vec<_> = reference
-        .samples
-        .iter()
-        .filter(|sample| sample.t <= T_END)
-        .collect();
-    let times: Vec<f64> = samples.iter().map(|sample| sample.t).collect();
-    let coarse = solve(&*problem, step_size, &times);
-    let fine = solve(&*problem, 0.5 * step_size, &times);
-    let count = samples.last().unwrap().crossings_before;
-    assert_eq!(coarse.crossings.len() as u64, count);
-    assert_eq!(fine.crossings.len() as u64, count);
-    let numerical = coarse.crossings.iter().zip(&fine.crossings);
-    for (exact, (coarse, fine)) in reference.crossings.iter().zip(numerical) {
-        assert_eq!(Some(coarse.1), problem.region_on_side(exact.to));
-        let (coarse, fine) = ((coarse.0 - exact.t).abs(), (fine.0 - exact.t).abs());
-        assert_order_two(coarse, fine, &format!("{name}: crossing at {}", exact.t));
-    }
-    for (k, exact) in samples.iter().enumerate() {
-        let (coarse, fine) = (
-            distance(&coarse.states[k], &exact.x),
-            distance(&fine.states[k], &exact.x),
-        );
-        assert_order_two(coarse, fine, &format!("{name}: state at {}", exact.t));
-    }
+    let samples = reference.samples.iter();
+    let samples: Vec<_> = samples.filter(|sample| sample.t <= T_END).collect();
+    let crossings = reference.crossings.iter();
+    let exact = Exact {
+        count: samples.last().unwrap().crossings_before as usize,
+        crossings: crossings
+            .map(|crossing| (crossing.t, problem.region_on_side(crossing.to).unwrap()))
+            .collect(),
+        samples: samples
+            .iter()
+            .map(|sample| (sample.t, sample.x.to_vec()))
+            .collect(),
+    };
+    assert_follows(&*problem, step_size, &exact);
 }
 
 /// A system against an independent method of high order, at a tenth, a fifth, a half and the
 /// whole of `t_end`, and at every crossing until then.
-pub(super) fn against_accurate(name: &str, step_size: f64, t_end: f64) {
+fn against_accurate(name: &str, step_size: f64, t_end: f64) {
     let problem = registry::find(name).unwrap();
-    let times = [0.1, 0.2, 0.5, 1.0].map(|part| part * t_end);
     let initial = problem.card().initial;
     let nodes = accurate::crossings(&*problem, initial, t_end, usize::MAX).unwrap();
-    let coarse = solve(&*problem, step_size, &times);
-    let fine = solve(&*problem, 0.5 * step_size, &times);
-    assert_eq!(coarse.crossings.len(), nodes.len() - 1, "{name}");
-    assert_eq!(fine.crossings.len(), nodes.len() - 1, "{name}");
     // a piecewise-smooth system that never crosses would test nothing of it
     assert_eq!(nodes.len() > 1, !problem.interfaces().is_empty(), "{name}");
-    let numerical = coarse.crossings.iter().zip(&fine.crossings);
-    for (exact, (coarse, fine)) in nodes.iter().skip(1).zip(numerical) {
-        assert_eq!((coarse.1, fine.1), (exact.region, exact.region), "{name}");
-        let (coarse, fine) = ((coarse.0 - exact.t).abs(), (fine.0 - exact.t).abs());
-        assert_order_two(coarse, fine, &format!("{name}: crossing at {}", exact.t));
-    }
-    for (k, &t) in times.iter().enumerate() {
+    let state_at = |t: f64| {
         let before = nodes.partition_point(|node| node.t <= t);
-        let exact = accurate::state_at(&*problem, &nodes[before - 1], t).unwrap();
-        let (coarse, fine) = (
-            distance(&coarse.states[k], &exact),
-            distance(&fine.states[k], &exact),
-        );
-        assert_order_two(coarse, fine, &format!("{name}: state at {t}"));
-    }
+        accurate::state_at(&*problem, &nodes[before - 1], t).unwrap()
+    };
+    let exact = Exact {
+        count: nodes.len() - 1,
+        crossings: nodes[1..]
+            .iter()
+            .map(|node| (node.t, node.region))
+            .collect(),
+        samples: [0.1, 0.2, 0.5, 1.0]
+            .map(|part| (part * t_end, state_at(part * t_end)))
+            .into(),
+    };
+    assert_follows(&*problem, step_size, &exact);
+}
+
+/// A test for each problem, named like it, and one that none is missing.
+macro_rules! checks {
+    ($($name:ident: $check:ident($($argument:expr),+);)+) => {
+        $(#[test]
+        fn $name() {
+            $check(stringify!($name), $($argument),+);
+        })+
+
+        #[test]
+        fn every_problem_is_checked() {
+            let checked = [$(stringify!($name)),+];
+            let problems: Vec<_> = registry::all().iter().map(|it| it.card().name).collect();
+            assert_eq!(checked[..], problems);
+        }
+    };
+}
+
+// the arguments: a step size at which errors are asymptotic, and an end time before which chaos
+// has not enlarged them
+checks! {
+    harmonic: against_reference(1.0 / 256.0);
+    elliptic: against_reference(1.0 / 256.0);
+    pendulum: against_reference(1.0 / 256.0);
+    lotka_volterra_periodic: against_reference(1.0 / 256.0);
+    damped: against_reference(1.0 / 256.0);
+    spiral: against_reference(1.0 / 256.0);
+    rigid_body: against_reference(1.0 / 256.0);
+    kepler_refraction: against_reference(1.0 / 256.0);
+    saturating_inductor: against_accurate(1.0 / 256.0, 20.0);
+    food_chain: against_accurate(1.0 / 256.0, 20.0);
+    fput_chain: against_accurate(1.0 / 256.0, 20.0);
+    fput_chain_32: against_accurate(1.0 / 64.0, 20.0);
+    toda_chain: against_accurate(1.0 / 256.0, 10.0);
+    toda_chain_32: against_accurate(1.0 / 128.0, 5.0);
+    toda: against_accurate(1.0 / 256.0, 10.0);
+    relativistic_oscillator: against_accurate(1.0 / 256.0, 10.0);
+    henon_heiles: against_accurate(1.0 / 256.0, 10.0);
+    poschl_teller: against_accurate(1.0 / 256.0, 10.0);
+    saturating_spring: against_accurate(1.0 / 256.0, 10.0);
+    double_pendulum: against_accurate(1.0 / 256.0, 10.0);
+    three_body: against_accurate(1.0 / 512.0, 10.0);
 }

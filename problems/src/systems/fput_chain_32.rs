@@ -11,6 +11,7 @@
 
 use dmm_runtime::pws;
 
+use super::fput_chain::parabola;
 use crate::problem::Card;
 
 pws! {
@@ -39,33 +40,14 @@ pws! {
     }
 }
 
-/// At rest, displaced as a parabola of height 1.
-const fn initial() -> [f64; 64] {
-    let mut x = [0.0; 64];
-    let mut i = 0;
-    while i < 32 {
-        x[i] = ((4 * (i + 1) * (32 - i)) as f64) / 1089.0;
-        i += 1;
-    }
-    x
-}
-
 /// The initial value problem.
 pub const CARD: Card = Card {
     name: "fput_chain_32",
     title: "Fermi-Pasta-Ulam-Tsingou chain of 32 masses with a broken-linear bond",
     source: "Fermi, Pasta, Ulam & Tsingou, LA-1940 (1955)",
-    initial: &initial(),
+    initial: &parabola::<64>(1.0),
     t_end: 300.0,
     step_size: 5e-2,
     longest: None,
     reference: None,
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("fput_chain_32", 1.0 / 64.0, 20.0);
-    }
-}

@@ -41,11 +41,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: Some(include_str!("../../reference/harmonic.json")),
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_reference_solution() {
-        crate::systems::check::against_reference("harmonic", 1.0 / 256.0);
-    }
-}

@@ -33,11 +33,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: None,
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("henon_heiles", 1.0 / 256.0, 10.0);
-    }
-}

@@ -59,11 +59,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: Some(include_str!("../../reference/kepler_refraction.json")),
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_reference_solution() {
-        crate::systems::check::against_reference("kepler_refraction", 1.0 / 256.0);
-    }
-}

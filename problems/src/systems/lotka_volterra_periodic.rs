@@ -44,11 +44,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: Some(include_str!("../../reference/lotka_volterra_periodic.json")),
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_reference_solution() {
-        crate::systems::check::against_reference("lotka_volterra_periodic", 1.0 / 256.0);
-    }
-}

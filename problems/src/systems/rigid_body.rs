@@ -49,11 +49,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: Some(include_str!("../../reference/rigid_body.json")),
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_reference_solution() {
-        crate::systems::check::against_reference("rigid_body", 1.0 / 256.0);
-    }
-}

@@ -45,11 +45,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: None,
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("saturating_inductor", 1.0 / 256.0, 20.0);
-    }
-}

@@ -41,11 +41,3 @@ pub const CARD: Card = Card {
     longest: Some(350.0),
     reference: Some(include_str!("../../reference/spiral.json")),
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_reference_solution() {
-        crate::systems::check::against_reference("spiral", 1.0 / 256.0);
-    }
-}

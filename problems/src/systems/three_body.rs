@@ -58,11 +58,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: None,
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("three_body", 1.0 / 512.0, 10.0);
-    }
-}

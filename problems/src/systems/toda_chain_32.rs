@@ -60,11 +60,3 @@ pub const CARD: Card = Card {
     longest: None,
     reference: None,
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn follows_the_accurate_solution() {
-        crate::systems::check::against_accurate("toda_chain_32", 1.0 / 128.0, 5.0);
-    }
-}

@@ -1,8 +1,11 @@
 //! Makes a failing case as short as it can be: parts of it are left out as long as it fails.
 
+use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 use crate::fuzz::tree::{self, Tree};
 
@@ -65,21 +68,24 @@ fn fails(text: &str) -> bool {
     result
 }
 
-fn fails_file(file: &Path) -> std::io::Result<bool> {
+fn fails_file(file: &Path) -> io::Result<bool> {
     let mut child = Command::new(std::env::current_exe()?)
         .arg("--check")
         .arg(file)
-        .stdout(Stdio::null())
+        .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()?;
-    let start = Instant::now();
-    while start.elapsed() < HANG {
-        if let Some(status) = child.try_wait()? {
-            return Ok(!status.success());
-        }
-        std::thread::sleep(Duration::from_millis(2));
+    let output = child.stdout.take();
+    let (alive, ended) = mpsc::channel::<()>();
+    let reader = thread::spawn(move || {
+        // its output ends with the process, and with this thread the channel
+        let _alive = alive;
+        output.map(|mut output| io::copy(&mut output, &mut io::sink()))
+    });
+    if ended.recv_timeout(HANG) == Err(RecvTimeoutError::Timeout) {
+        // a process that is killed has no success
+        child.kill()?;
     }
-    child.kill()?;
-    child.wait()?;
-    Ok(true)
+    drop(reader.join());
+    Ok(!child.wait()?.success())
 }

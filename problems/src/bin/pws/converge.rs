@@ -244,21 +244,21 @@ pub(crate) fn order(study: &Study, errors: &[f64]) -> String {
     }
 }
 
+/// The axes of errors, `what` they are of, over step sizes.
+pub(crate) fn axes(what: &str) -> (Axis, Axis) {
+    (
+        Axis::new("step size τ", Scale::Octaves),
+        Axis::new(what, Scale::Decades),
+    )
+}
+
+/// The errors over the step sizes.
+pub(crate) fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
+    let step_sizes = study.step_sizes.iter().copied();
+    step_sizes.zip(errors.iter().copied()).collect()
+}
+
 fn picture(problem: &dyn Problem, study: &Study) -> Picture {
-    let axes = |what: &str| {
-        (
-            Axis::new("step size τ", Scale::Octaves),
-            Axis::new(what, Scale::Decades),
-        )
-    };
-    let curve = |errors: &[f64]| {
-        study
-            .step_sizes
-            .iter()
-            .copied()
-            .zip(errors.iter().copied())
-            .collect()
-    };
     let mut panels = Vec::new();
     if study.rows.iter().any(|row| row.crossing.is_some()) {
         let (x, y) = axes("|crossing time − exact|");
@@ -268,7 +268,7 @@ fn picture(problem: &dyn Problem, study: &Study) -> Picture {
                 let label = Some(format!("crossing {}", crossing.number));
                 panel.curve(
                     label,
-                    curve(&crossing.errors),
+                    curve(study, &crossing.errors),
                     Stroke::Marked,
                     COLOURS[k % COLOURS.len()],
                 );
@@ -290,7 +290,7 @@ fn picture(problem: &dyn Problem, study: &Study) -> Picture {
             });
             panel.curve(
                 label,
-                curve(&rows[k][part].1),
+                curve(study, &rows[k][part].1),
                 Stroke::Marked,
                 COLOURS[k % COLOURS.len()],
             );

@@ -1,11 +1,11 @@
 //! Figs 3, 4, 6 and 7: errors of crossing times and states against the step size.
 
 use dmm_problems::convergence::{self, Plan, Study};
-use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
+use dmm_problems::picture::{COLOURS, Panel, Picture, Stroke};
 use dmm_problems::problem::{Method, Problem};
 
 use super::Report;
-use crate::converge::{self, halved, quantities};
+use crate::converge::{self, axes, curve, halved, quantities};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{self, Csv};
@@ -31,22 +31,6 @@ fn plan(problem: &dyn Problem, method: Method, step: f64) -> Plan {
         step_sizes: halved(step, HALVINGS),
         t_end: problem.card().t_end,
     }
-}
-
-fn axes(what: &str) -> (Axis, Axis) {
-    (
-        Axis::new("step size τ", Scale::Octaves),
-        Axis::new(what, Scale::Decades),
-    )
-}
-
-fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
-    study
-        .step_sizes
-        .iter()
-        .copied()
-        .zip(errors.iter().copied())
-        .collect()
 }
 
 fn order(study: &Study, errors: &[f64]) -> String {

@@ -3,19 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
-
-/// Calls `pws show`: exit status, standard output, standard error.
-fn show(arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::cargo_bin("pws").unwrap();
-    let output = command.arg("show").args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
+use super::{pws, refusal, said, texts};
 
 fn file(folder: &Path, name: &str, text: &str) -> PathBuf {
     let path = folder.join(name);
@@ -34,8 +22,7 @@ const OSCILLATOR: &str = "system Oscillator {
 
 #[test]
 fn a_problem_from_its_declaration_to_what_is_known() {
-    let (status, text, _) = show(&["elliptic"]);
-    assert_eq!(status, Some(0));
+    let text = said(&["show", "elliptic"]);
     let parts = [
         "pub system Elliptic {",
         "multiplier Λ = ∇ψ",
@@ -54,16 +41,14 @@ fn a_problem_from_its_declaration_to_what_is_known() {
 fn a_declaration_and_rust_with_declarations() {
     let folder = tempfile::tempdir().unwrap();
     let alone = file(folder.path(), "oscillator.pws", OSCILLATOR);
-    let (status, text, _) = show(&[alone.to_str().unwrap()]);
-    assert_eq!(status, Some(0));
+    let text = said(&["show", alone.to_str().unwrap()]);
     assert!(text.contains("f^τ[y] = -k*(x₁ + x₀)/2"), "{text}");
     let second = OSCILLATOR.replace("Oscillator", "Second");
     let rust = format!(
         "use dmm_runtime::pws;\nmod a {{ pws! {{ {OSCILLATOR} }} }}\npws! {{ {second} }}\n"
     );
     let path = file(folder.path(), "two.rs", &rust);
-    let (status, text, _) = show(&[path.to_str().unwrap()]);
-    assert_eq!(status, Some(0));
+    let text = said(&["show", path.to_str().unwrap()]);
     let first = text.find("system Oscillator").unwrap();
     assert!(first < text.find("system Second").unwrap());
 }
@@ -76,8 +61,8 @@ fn mistakes_are_shown_where_they_are() {
         .replace("k = 1", "k = q");
     let path = file(folder.path(), "wrong.rs", &format!("pws! {{\n{wrong}}}\n"));
     let shown = path.to_str().unwrap();
-    let (status, text, errors) = show(&[shown]);
-    assert_eq!((status, text.as_str()), (Some(2), ""));
+    let [text, errors] = texts(pws(&["show", shown]), 2);
+    assert_eq!(text, "");
     assert!(errors.contains(&format!("{shown}:4:15: ")), "{errors}");
     assert!(errors.contains(&format!("{shown}:6:19: ")), "{errors}");
     assert!(
@@ -91,15 +76,10 @@ fn files_that_declare_nothing_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (text, expected) in [("fn main() {}", "declares no system"), ("\n  )", ":2:3: ")] {
         let path = file(folder.path(), "other.rs", text);
-        let (status, _, errors) = show(&[path.to_str().unwrap()]);
-        assert_eq!(status, Some(2));
+        let [_, errors] = texts(pws(&["show", path.to_str().unwrap()]), 2);
         assert!(errors.contains(expected), "{errors}");
     }
-    let (status, _, errors) = show(&["missing.rs"]);
-    assert!(
-        status == Some(2) && errors.contains("cannot read missing.rs"),
-        "{errors}"
-    );
+    assert!(refusal(&["show", "missing.rs"]).contains("cannot read missing.rs"));
 }
 
 #[test]
@@ -107,11 +87,55 @@ fn latex_of_a_problem_and_of_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = file(folder.path(), "oscillator.pws", OSCILLATOR);
     for what in ["elliptic", path.to_str().unwrap()] {
-        let (status, text, _) = show(&[what, "--latex"]);
-        assert_eq!(status, Some(0));
+        let text = said(&["show", what, "--latex"]);
         assert!(
             text.is_ascii() && text.contains(r"\begin{align*}"),
             "{text}"
         );
     }
+}
+
+#[test]
+fn show_prints_declaration_and_scheme() {
+    let text = said(&["show", "elliptic"]);
+    assert!(text.contains("der(y) = 3 * x^2 + a_inside;"));
+    assert!(text.contains("discrete vector field f^τ"));
+    assert!(text.contains("skew pairing"));
+}
+
+/// What is printed can be pasted into the declaration.
+#[test]
+fn invariants_are_found_and_accepted() {
+    let text = said(&["show", "pendulum", "--find-invariants", "2"]);
+    assert!(text.contains("in all regions:\n    none up to degree 2"));
+    assert!(
+        text.contains("in the region `left`:\n    conserved invariant_1 = p^2 - 2*k_left*cos(q);")
+    );
+
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("duffing.pws");
+    let system = "system Duffing { state x, v; der(x) = v; der(v) = -x - x^3; ";
+    fs::write(&file, format!("{system} }}")).unwrap();
+    let path = file.to_str().unwrap();
+    let text = said(&["show", path, "--find-invariants", "4"]);
+    let found = text
+        .lines()
+        .find(|line| line.contains("conserved"))
+        .unwrap();
+    assert_eq!(found.trim(), "conserved invariant_1 = 2*x^2 + 2*v^2 + x^4;");
+    fs::write(&file, format!("{system} {found} }}")).unwrap();
+    assert!(said(&["show", path]).contains("invariant_1"));
+
+    for degree in ["0", "-1", "two", "1.5"] {
+        let option = format!("--find-invariants={degree}");
+        assert!(refusal(&["show", path, &option]).contains("--find-invariants"));
+    }
+    let refused = refusal(&["show", "fput_chain_32", "--find-invariants", "3"]);
+    assert!(refused.contains("ask for a degree up to 2"));
+    fs::write(&file, "system S { state x; der(x) = y; }").unwrap();
+    let [_, text] = texts(pws(&["show", path, "--find-invariants", "2"]), 2);
+    assert!(
+        text.contains("duffing.pws:1:30: `y` is not declared"),
+        "{text}"
+    );
 }

@@ -1,0 +1,134 @@
+//! `pws run`: what it writes and what it keeps.
+
+use std::fs;
+
+use super::{Results, refusal, texts};
+
+#[test]
+fn run_writes_points_transitions_and_pictures() {
+    let results = Results::within("new/folder");
+    let text = results.said(&["run", "harmonic", "--step", "0.01", "--end", "10"]);
+    assert!(text.contains("transitions: 4"), "{text}");
+    assert!(text.contains("Newton iterations a step"));
+
+    let (header, points) = results.table("points.csv");
+    assert_eq!(header, ["t", "region", "x", "y", "energy", "energy_error"]);
+    // the start, 1000 steps, and both sides of 4 transitions
+    assert_eq!(points.len(), 1 + 1000 + 2 * 4);
+    assert_eq!(points[0], ["0", "above", "1", "1", "1", "0"]);
+    assert_eq!(points.last().unwrap()[0], "10");
+    let sides: Vec<_> = points
+        .windows(2)
+        .filter(|pair| pair[0][0] == pair[1][0])
+        .collect();
+    assert_eq!(sides.len(), 4);
+    assert!(
+        sides
+            .iter()
+            .all(|pair| pair[0][1] != pair[1][1] && pair[0][2..4] == pair[1][2..4])
+    );
+
+    let (_, transitions) = results.table("transitions.csv");
+    assert_eq!(transitions.len(), 4);
+    assert_eq!(transitions[0][1..4], ["spring", "above", "below"]);
+    let t: f64 = transitions[0][0].parse().unwrap();
+    assert!((t - std::f64::consts::FRAC_PI_4).abs() < 1e-4); // τ²·t/12 is 7e-6
+    for picture in ["phase.svg", "series.svg", "conservation.svg"] {
+        assert!(
+            fs::read_to_string(results.path(picture))
+                .unwrap()
+                .contains("<svg")
+        );
+    }
+}
+
+#[test]
+fn run_takes_parameters_initial_state_scheme_and_format() {
+    let results = Results::new();
+    let call = [
+        "run",
+        "pendulum",
+        "--param",
+        "k_left=2.5",
+        "--param",
+        "k_right=0.5",
+        "--initial",
+        "p=-0.25",
+        "--scheme",
+        "explicit-midpoint",
+        "--every",
+        "50",
+        "--step",
+        "0.01",
+        "--end",
+        "5",
+        "--format",
+        "png",
+    ];
+    let text = results.said(&call);
+    assert!(text.contains("0.00 Newton iterations"), "{text}");
+    let (_, points) = results.table("points.csv");
+    assert_eq!(points[0][2..4], ["0.5", "-0.25"]);
+    let transitions = results.table("transitions.csv").1.len();
+    assert!(transitions > 0);
+    assert!(points.len() <= 1 + 10 + 2 * transitions + 1);
+    assert_eq!(points.last().unwrap()[0], "5");
+    assert!(
+        fs::read(results.path("phase.png"))
+            .unwrap()
+            .starts_with(b"\x89PNG")
+    );
+}
+
+#[test]
+fn a_smooth_problem_has_no_file_of_transitions() {
+    let results = Results::new();
+    results.said(&["run", "henon-heiles", "--end", "1"]);
+    assert!(results.path("points.csv").exists() && !results.path("transitions.csv").exists());
+}
+
+#[test]
+fn elements_of_groups_are_given_by_their_index() {
+    let results = Results::new();
+    results.said(&[
+        "run",
+        "three_body",
+        "--param",
+        "m[1]=2",
+        "--initial",
+        "x[2]=0.125,v[ 0 ]=-0.5",
+        "--end",
+        "0.1",
+    ]);
+    let (header, points) = results.table("points.csv");
+    let first = |name: &str| {
+        let column = header.iter().position(|known| known == name).unwrap();
+        points[0][column].parse::<f64>().unwrap()
+    };
+    assert_eq!((first("x[2]"), first("v[0]")), (0.125, -0.5));
+    // Σ mᵢ uᵢ with m = (1, 2, 1) and u as on the figure eight: 0.466…
+    assert!((first("momentum_x") - 0.466_203_685).abs() < 1e-12);
+}
+
+#[test]
+fn an_unwritable_place_is_refused_before_the_work() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("file");
+    fs::write(&file, "keep me").unwrap();
+    let inside = file.join("results");
+    let text = refusal(&["run", "harmonic", "--out", inside.to_str().unwrap()]);
+    assert!(text.contains("cannot write"), "{text}");
+    assert_eq!(fs::read_to_string(&file).unwrap(), "keep me");
+}
+
+#[test]
+fn what_was_computed_before_a_failure_is_kept() {
+    let results = Results::new();
+    // from (2, 3) the elliptic curve goes to infinity in finite time
+    let call = ["run", "elliptic", "--initial", "x=2,y=3", "--end", "5"];
+    let [_, text] = texts(results.pws(&call), 1);
+    assert_eq!(text.trim_end().lines().count(), 1, "{text}");
+    let (_, points) = results.table("points.csv");
+    assert!(points.len() > 100);
+    assert!(results.path("phase.svg").exists());
+}
