@@ -47,7 +47,7 @@ use proc_macro::TokenStream;
 /// | `param k = 1, m[3] = [1, 2, 3];` | parameters with their defaults, one for all elements of a group or one each; public fields of the struct |
 /// | `const n = 3;` | a constant: a formula of numbers and constants |
 /// | `let r = sqrt(x^2 + y^2);` | a shared sub-expression |
-/// | `fn V(q, k) = k * q^2/2;` | a function, written out wherever it is called |
+/// | `fn V(q, k) = k * q^2/2;` | a function, written out wherever it is called; in its formula an argument hides what else has its name |
 /// | `interface name = g;` | an interface, the zero set of the switching function g |
 /// | `region name where i > 0 { … }` | where the fields and conserved quantities in the block hold |
 /// | `der(x) = formula;` | ẋ, once a state in every region |
@@ -110,6 +110,10 @@ use proc_macro::TokenStream;
 ///
 /// The vector field of a Hamiltonian is derived, and H is conserved by construction. A pair is
 /// made of two states, two elements, or two groups of the same length.
+///
+/// The formula of a function sees its arguments, and of the names declared above it those that no
+/// argument has: a potential is `fn V(q) = k * q^2/2;` also where `q` is a state, and `V(q[1])` is
+/// its value at another one.
 ///
 /// ```
 /// use dmm_runtime::{Integrator, Symmetric, pws};

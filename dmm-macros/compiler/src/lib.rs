@@ -6,7 +6,8 @@
 //!
 //! A stage reports all that it can check to [`diagnostics`]; the next one starts if there was
 //! nothing to report. [`compile`] is the way through all of them, [`read`] and [`explain`] stop
-//! at the scheme.
+//! at the scheme. Beside them stands [`invariants`], which starts from the model: what a system
+//! conserves of which only f is known.
 //!
 //! # One system, stage by stage
 //!
@@ -87,6 +88,27 @@
 //! let evidence = &model.regions[0].conserved[0].evidence;
 //! assert_eq!(*evidence, Conservation::Proved(Vec::new()));
 //! assert!(diagnostics.is_empty());
+//! ```
+//!
+//! ## Model → invariants
+//!
+//! Had the conserved quantity not been known, [`invariants::find`] would have found it among the
+//! polynomials up to a degree; [`invariants::report`] writes what it finds as it is declared.
+//!
+//! ```
+//! use dmm_compiler::algebra::to_text;
+//! use dmm_compiler::invariants;
+//!
+//! let declaration = "system Elliptic {
+//!     state x, y;
+//!     param a = -3;
+//!     der(x) = 2 * y;
+//!     der(y) = 3 * x^2 + a;
+//! }";
+//! let mut model = invariants::read(declaration.parse().unwrap()).unwrap();
+//! let found = invariants::find(&mut model, 3).unwrap();
+//! assert_eq!(found.common.len(), 1);
+//! assert_eq!(to_text(&model.dag, found.common[0].psi), "y^2 - a*x - x^3");
 //! ```
 //!
 //! ## Proofs → Λ and Λ^τ

@@ -6,7 +6,7 @@
 use proc_macro2::Ident;
 use syn::{Attribute, Visibility};
 
-use crate::algebra::{Dag, Id, Name};
+use crate::algebra::{Dag, Id, Name, to_text};
 use crate::diagnostics::Extent;
 
 /// A piecewise-smooth system ẋ = fᵣ(t, x) on regions r, the sign patterns of switching
@@ -172,6 +172,18 @@ pub enum DomainCondition {
     NonZero(Id),
     /// −1 ≤ u ≤ 1
     WithinOne(Id),
+}
+
+impl DomainCondition {
+    /// As text: `x > 0`
+    pub fn statement(self, dag: &Dag) -> String {
+        match self {
+            Self::Positive(u) => format!("{} > 0", to_text(dag, u)),
+            Self::NotNegative(u) => format!("{} ≥ 0", to_text(dag, u)),
+            Self::NonZero(u) => format!("{} ≠ 0", to_text(dag, u)),
+            Self::WithinOne(u) => format!("|{}| ≤ 1", to_text(dag, u)),
+        }
+    }
 }
 
 /// What is known of the independence of the ψ of a region, the rank of Λ = ∇ψ.

@@ -12,7 +12,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::model::camel_case;
-use crate::syntax::{Declaration, Defaults, Item, is_identifier};
+use crate::syntax::{Declaration, Defaults, Item, is_identifier, is_name_of_type};
 use count::Constants;
 
 /// The length of a group of parameters that the declaration does not tell: more than any index
@@ -20,8 +20,12 @@ use count::Constants;
 const UNKNOWN_LENGTH: usize = 1024;
 
 /// The struct with its parameters, `Default`, the enumeration of the regions, and an
-/// `impl System` with the right number of states.
+/// `impl System` with the right number of states. There is none if the system's name is a
+/// keyword or a type of Rust, to which nothing else in a program can refer.
 pub fn stub(declaration: &Declaration) -> TokenStream {
+    if !is_name_of_type(&declaration.name.to_string()) {
+        return TokenStream::new();
+    }
     let constants = Constants::of(declaration);
     let (visibility, name) = (&declaration.visibility, &declaration.name);
     let region = format_ident!("{}Region", name, span = name.span());
@@ -110,7 +114,7 @@ fn parameters<'a>(
 ) -> Vec<(&'a Ident, Option<usize>)> {
     let mut seen = BTreeSet::new();
     let mut parameters = Vec::new();
-    for item in &declaration.items {
+    for item in flat(&declaration.items) {
         let Item::Parameter(parameter) = item else {
             continue;
         };
@@ -128,6 +132,20 @@ fn parameters<'a>(
         parameters.push((&parameter.group.ident, length));
     }
     parameters
+}
+
+/// The items with those of regions and loops, where some may stand by mistake.
+fn flat(items: &[Item]) -> Vec<&Item> {
+    let mut all = Vec::new();
+    for item in items {
+        all.push(item);
+        match item {
+            Item::Region(region) => all.extend(flat(&region.items)),
+            Item::For(repeated) => all.extend(flat(&repeated.items)),
+            _ => {}
+        }
+    }
+    all
 }
 
 fn variants(declaration: &Declaration) -> Vec<Ident> {
@@ -151,7 +169,7 @@ fn variants(declaration: &Declaration) -> Vec<Ident> {
 fn states(declaration: &Declaration, constants: &Constants) -> Option<usize> {
     let mut seen = BTreeSet::new();
     let mut count = 0_usize;
-    for item in &declaration.items {
+    for item in flat(&declaration.items) {
         let Item::State(states) = item else {
             continue;
         };
@@ -197,6 +215,45 @@ mod tests {
             "Self { k : 0.0 , }",
         ] {
             assert!(text.contains(part), "{part} / {text}");
+        }
+    }
+
+    #[test]
+    fn misplaced_parameters_and_states_are_there() {
+        let text = stubbed(
+            "state x; interface g = x;
+            region a where g > 0 { param k = 1, m[2] = [1, 2]; state y; der(x) = k; }
+            region b where g < 0 { for i in 0..2 { param l = 1; } }",
+        );
+        for part in [
+            "pub struct S { pub k : f64 , pub m : [f64 ; 2usize] , pub l : f64 , }",
+            "System < 2usize > for S",
+        ] {
+            assert!(text.contains(part), "{part} / {text}");
+        }
+    }
+
+    /// What the macro gives for a system of this name.
+    fn compiled(name: &str) -> String {
+        let text = format!("system {name} {{ state x; param k = 1; der(x) = k; }}");
+        crate::compile(text.parse().expect("tokens")).to_string()
+    }
+
+    #[test]
+    fn a_refused_name_of_a_system_has_a_stub_if_it_can() {
+        for name in ["region", "sum", "param", "r#type"] {
+            let text = compiled(name);
+            for part in [
+                "compile_error !".into(),
+                format!("struct {name} {{ pub k : f64 , }}"),
+            ] {
+                assert!(text.contains(&part), "{part} / {text}");
+            }
+        }
+        for name in ["f64", "type", "_", "for"] {
+            let text = compiled(name);
+            assert_eq!(text.matches("compile_error !").count(), 1, "{text}");
+            assert!(!text.contains("struct"), "{text}");
         }
     }
 

@@ -124,10 +124,11 @@ fn messages_say_what_to_do() {
 
 #[test]
 fn a_mistake_has_one_message() {
-    // where it is made at several places, each of them is shown; and two are none after all
+    // where it is made at several places, each of them is shown; and three are none after all
     const OTHERS: &[(&str, usize)] = &[
         ("half as an integer division", 0),
         ("degrees", 0),
+        ("argument called like a state", 0),
         ("Leibniz's notation", 2),
         ("condition on a state", 2),
         ("condition with another bound", 2),

@@ -21,6 +21,15 @@ pws! {
 }
 
 pws! {
+    system Rounding {
+        state x, y;
+        der(x) = sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2);
+        der(y) = 1;
+        assume conserved a = x;
+    }
+}
+
+pws! {
     system NotSmall {
         state x, y;
         der(x) = sqrt(x - 4);

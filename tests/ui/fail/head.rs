@@ -13,6 +13,10 @@ pws! {
 }
 
 pws! {
+    system f64 { state x; der(x) = 1; }
+}
+
+pws! {
     system NoBlock;
 }
 

@@ -9,6 +9,8 @@ pws! {
         for i in 0..=2 { der(q[i]) = sum(q); }
         for i in q { der(q[0]) = 1; }
         conserved a = sum(q[i], i in 0..3);
+        conserved b = summ(i in 0..3, q[i]);
+        conserved c = product(i in 0..3, q[i]);
     }
 }
 
@@ -26,8 +28,8 @@ pws! {
     system Names {
         state q[3], i;
         for i in 0..3 { der(q[i]) = 1; }
-        fn f(q) = q^2;
-        der(i) = f(i);
+        fn f(q, q) = q^2;
+        der(i) = f(i, i);
     }
 }
 

@@ -33,6 +33,15 @@ pws! {
     }
 }
 
+pws! {
+    system sum {
+        state x;
+        interface wall = x;
+        region left where wall < 0 { param k = 1; der(x) = k; }
+        region right where wall > 0 { der(x) = 1; }
+    }
+}
+
 fn main() {
     let ring = Ring { k: 2.0, m: [1.0, 2.0, 3.0], ..Default::default() };
     let solution = Integrator::new(&ring, Symmetric::step_size(0.1))
@@ -52,4 +61,10 @@ fn main() {
         .initial(0.0, [1.0, 2.0])
         .run_until(10.0);
     println!("{:?} {}", WordsRegion::Everywhere, solution.is_ok());
+
+    let sum = sum { k: 2.0 };
+    let solution = Integrator::new(&sum, Symmetric::step_size(0.1))
+        .initial(0.0, [1.0])
+        .run_until(10.0);
+    println!("{:?} {}", sumRegion::Left, solution.is_ok());
 }

@@ -47,10 +47,11 @@ pws! {
 }
 
 pws! {
-    /// With an explicit time, only the field is derived.
+    /// With an explicit time, only the field is derived. The argument of V is not the state.
     pub system Driven {
         state q, p;
-        hamiltonian H = p^2/2 - cos(q) - q*sin(t)/10 in (q, p);
+        fn V(q) = -cos(q);
+        hamiltonian H = p^2/2 + V(q) - q*sin(t)/10 in (q, p);
     }
 }
 

@@ -1,9 +1,11 @@
 //! Functions: `fn V(q) = formula` is checked where it is declared, with arguments of which
 //! nothing is known, and written out where it is called.
 //!
-//! The formula sees the names declared in front of it and its arguments, whatever is around the
-//! call. A call with the same arguments is written out once: a function that calls another one
-//! twice, and so on sixty times, is an exponentially long formula but a short DAG.
+//! The formula sees its arguments, and of the names declared in front of it those that are not
+//! the name of an argument: in `fn V(q) = k*q^2/2` q is the argument, also where a state is called
+//! q. What is around the call it does not see. A call with the same arguments is written out once:
+//! a function that calls another one twice, and so on sixty times, is an exponentially long formula
+//! but a short DAG.
 
 use proc_macro2::Ident;
 
@@ -22,7 +24,7 @@ impl<'d> Resolver<'d> {
         let before = self.diagnostics.len();
         self.names.enter_function();
         for argument in &item.arguments {
-            if let Some((code, message)) = self.names.local_problem(argument, Kind::Argument) {
+            if let Some((code, message)) = self.names.argument_problem(argument) {
                 self.report(code, argument, message);
             }
             let value = self.unknown();

@@ -204,6 +204,9 @@ impl<'d> Resolver<'d> {
         let remedy = match kind {
             Kind::State => format!("leave out the index, or declare `state {ident}[n];`"),
             Kind::Parameter => format!("leave out the index, or declare `param {ident}[n] = …;`"),
+            Kind::Argument if self.names.hides_group(&ident.to_string()) => {
+                "leave out the index, or rename the argument, which hides the group".into()
+            }
             _ => "leave out the index".into(),
         };
         let message = format!("`{ident}` is one {kind}, not a group: {remedy}");

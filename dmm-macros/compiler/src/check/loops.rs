@@ -88,7 +88,7 @@ impl<'d> Resolver<'d> {
         turn: &mut dyn FnMut(&mut Self),
     ) -> Option<Turns> {
         let turns = self.range(range);
-        if let Some((code, message)) = self.names.local_problem(variable, Kind::Counter) {
+        if let Some((code, message)) = self.names.counter_problem(variable) {
             self.report(code, variable, message);
             self.quietly(|resolver| resolver.one_turn(variable, None, turn));
             return None;

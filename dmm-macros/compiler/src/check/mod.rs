@@ -13,8 +13,7 @@
 //! - no formula divides by zero, leaves the real numbers, or overflows whatever the state is.
 //!
 //! A formula of which an error was reported yields nothing, and nothing that follows from its
-//! absence is reported. Loops and functions can make a short declaration arbitrarily long, so
-//! that the nodes that are written out have a limit.
+//! absence is reported (see the module `report`).
 
 mod advice;
 mod body;
@@ -28,30 +27,24 @@ mod loops;
 mod names;
 mod number;
 mod regions;
+mod report;
 mod samples;
+mod sides;
 mod targets;
 
 #[cfg(test)]
 mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Display;
-
-use proc_macro2::Ident;
 
 use crate::algebra::{Dag, Id};
+use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::check as codes;
-use crate::diagnostics::{Code, Diagnostics, Extent};
 use crate::model::{Interface, Model, Parameter, State};
 use crate::syntax::{Declaration, Definition, Expression, FunctionItem, Item};
 use groups::MOST_STATES;
 use names::{Kind, Meaning, Names};
 use samples::Samples;
-
-/// The most parts of formulas that are read, each as often as loops and functions repeat it.
-const MOST_WORK: usize = 60_000;
-/// The most nodes of all formulas together.
-const MOST_NODES: usize = 30_000;
 
 /// Resolves `declaration`. The model is there if nothing was added to `diagnostics`.
 pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
@@ -168,75 +161,6 @@ impl<'d> Resolver<'d> {
         }
     }
 
-    /// Reports an error; one within the formula of a function where that is called.
-    fn report(&mut self, code: Code, place: impl Into<Extent>, message: impl Display) {
-        if self.is_quiet {
-            return;
-        }
-        match self.calls.first() {
-            Some(call) => {
-                let message = format!("in `{call}`: {message}");
-                self.diagnostics.report(code, call.extent, message);
-            }
-            None => self.diagnostics.report(code, place, message),
-        }
-    }
-
-    /// Reports an error that may depend on the values of the loop variables.
-    fn report_turn(&mut self, code: Code, place: impl Into<Extent>, message: impl Display) {
-        let turn = self.turn(", with");
-        self.report(code, place, format!("{message}{turn}"));
-    }
-
-    /// The values of the loop variables behind `with`: ` with i = 2, j = 0`.
-    fn turn(&self, with: &str) -> String {
-        let counters: Vec<String> = (self.names.counters())
-            .map(|(name, value)| format!("{name} = {value}"))
-            .collect();
-        match counters.as_slice() {
-            [] => String::new(),
-            counters => format!("{with} {}", counters.join(", ")),
-        }
-    }
-
-    /// Does what reports nothing new.
-    fn quietly<T>(&mut self, task: impl FnOnce(&mut Self) -> T) -> T {
-        let was_quiet = std::mem::replace(&mut self.is_quiet, true);
-        let result = task(self);
-        self.is_quiet = was_quiet;
-        result
-    }
-
-    /// Counts what was read; nothing is read any more once it is too much.
-    fn spend(&mut self, work: usize, place: &Expression) -> Option<()> {
-        if self.is_exhausted() {
-            return None;
-        }
-        self.work = self.work.saturating_add(work);
-        if self.is_exhausted() {
-            self.too_long(
-                place,
-                "written out, its loops and functions have too many parts",
-            );
-            return None;
-        }
-        Some(())
-    }
-
-    fn is_exhausted(&self) -> bool {
-        self.work > MOST_WORK || self.dag.len() > MOST_NODES
-    }
-
-    /// Reports that the declaration is too long, and reads no more of it.
-    fn too_long(&mut self, place: &Expression, reason: &str) {
-        self.work = usize::MAX;
-        let message = format!(
-            "this declaration is too long: {reason}{}",
-            self.turn(", with")
-        );
-        self.report(codes::TOO_LONG, place.extent, message);
-    }
-
     /// Everything outside of the regions, in the order of the source.
     fn top_level(&mut self, declaration: &'d Declaration) {
         for item in &declaration.items {
@@ -316,20 +240,5 @@ impl<'d> Resolver<'d> {
             switching_function: g,
             span: interface.formula.extent,
         })
-    }
-
-    /// What was declared and never used, as far as everything that could use it is there.
-    fn unused(&mut self) {
-        if !self.lacks_region && !self.is_exhausted() {
-            let unused = self.names.unused();
-            self.report_unused(unused);
-        }
-    }
-
-    fn report_unused(&mut self, unused: Vec<(Kind, Ident)>) {
-        for (kind, ident) in unused {
-            let message = format!("the {kind} `{ident}` is never used; remove it");
-            self.report(codes::UNUSED, &ident, message);
-        }
     }
 }

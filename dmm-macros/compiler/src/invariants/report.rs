@@ -6,11 +6,11 @@ use std::fmt::Write;
 use proc_macro2::TokenStream;
 
 use super::{Invariant, Obstacle, find};
-use crate::algebra::{Dag, to_text};
-use crate::check;
+use crate::algebra::to_text;
 use crate::diagnostics::Diagnostics;
 use crate::model::Model;
 use crate::syntax;
+use crate::{check, proofs};
 
 /// The model of a declaration, of which nothing has to be proved for invariants to be sought.
 pub fn read(input: TokenStream) -> Result<Model, Diagnostics> {
@@ -22,7 +22,7 @@ pub fn read(input: TokenStream) -> Result<Model, Diagnostics> {
 }
 
 /// The polynomial invariants of `model` up to `degree` as text, with lines that can be pasted
-/// into the declaration.
+/// into the declaration, and comments on where they are conserved: ln x needs x > 0.
 pub fn report(model: &mut Model, degree: u32) -> Result<String, Obstacle> {
     let found = find(model, degree)?;
     let mut names = Names::of(model);
@@ -49,15 +49,19 @@ pub fn report(model: &mut Model, degree: u32) -> Result<String, Obstacle> {
     } else {
         text.push('\n');
     }
-    names.write(&mut text, &model.dag, &found.common, found.degree, "");
-    for (region, own) in model.regions.iter().zip(&found.regions) {
-        let _ = writeln!(text, "\nin the region `{}`:", region.ident);
+    let all: Vec<usize> = (0..model.regions.len()).collect();
+    names.write(&mut text, model, &all, &found.common, found.degree, "");
+    for (region, own) in found.regions.iter().enumerate() {
+        let Some(ident) = model.regions.get(region).map(|region| &region.ident) else {
+            continue;
+        };
+        let _ = writeln!(text, "\nin the region `{ident}`:");
         let besides = if found.common.is_empty() {
             ""
         } else {
             " besides those of all regions"
         };
-        names.write(&mut text, &model.dag, own, found.degree, besides);
+        names.write(&mut text, model, &[region], own, found.degree, besides);
     }
     if found.unresolved > 0 {
         let _ = writeln!(
@@ -107,17 +111,26 @@ impl Names {
         }
     }
 
-    /// One line an invariant.
+    /// One line an invariant, below one that says where it is conserved unless that is
+    /// everywhere.
     fn write(
         &mut self,
         text: &mut String,
-        dag: &Dag,
+        model: &mut Model,
+        regions: &[usize],
         invariants: &[Invariant],
         degree: u32,
         besides: &str,
     ) {
         for invariant in invariants {
-            let psi = to_text(dag, invariant.psi);
+            let conditions: Vec<String> = proofs::domain(model, regions, invariant.psi)
+                .into_iter()
+                .map(|condition| condition.statement(&model.dag))
+                .collect();
+            if !conditions.is_empty() {
+                let _ = writeln!(text, "    // where {}", conditions.join(", "));
+            }
+            let psi = to_text(&model.dag, invariant.psi);
             let _ = writeln!(text, "    conserved {} = {psi};", self.next());
         }
         if invariants.is_empty() {

@@ -256,6 +256,37 @@ fn regions_are_reported_one_by_one() {
     );
 }
 
+/// A domain is a comment above the line that it is about, so that both can be pasted.
+#[test]
+fn domains_are_reported() {
+    let invariants = |items: &str| {
+        let text = report(&mut model(items), 2).expect("a report");
+        let (_, after) = text.split_once("\n\n").expect("a heading");
+        after.to_owned()
+    };
+    assert_eq!(
+        invariants("state x, y, z; der(x) = x*(1 - y); der(y) = y*(x - 1); der(z) = 0;"),
+        "    conserved invariant_1 = z;\n    \
+             // where x > 0, y > 0\n    \
+             conserved invariant_2 = x + y - ln(x) - ln(y);\n"
+    );
+    assert_eq!(
+        invariants("state x, v; param m = 1; der(x) = v/m; der(v) = -1/x/m;"),
+        "    // where x > 0, m ≠ 0\n    conserved invariant_1 = 2*ln(x) + v^2;\n"
+    );
+    // of several regions, each has its own
+    assert_eq!(
+        invariants(
+            "state x, v, z; interface g = v;
+             region up where g > 0 { der(x) = v; der(v) = -1/x; der(z) = 0; }
+             region down where g < 0 { der(x) = v; der(v) = -x; der(z) = 0; }"
+        ),
+        "in all regions:\n    conserved invariant_1 = z;\n\n\
+         in the region `up`:\n    // where x > 0\n    conserved invariant_2 = 2*ln(x) + v^2;\n\n\
+         in the region `down`:\n    conserved invariant_3 = x^2 + v^2;\n"
+    );
+}
+
 /// Energy, momenta, angular momentum; and that of the centre of mass, whose coefficients are
 /// not products of powers, may be there.
 #[test]

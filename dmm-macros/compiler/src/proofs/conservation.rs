@@ -5,12 +5,10 @@ use super::message::{coordinates, in_region, refutation, rounded, shortened};
 use super::points::points;
 use super::{Quantity, Variables, rate};
 use crate::algebra::normal_form::decide_zero_on;
-use crate::algebra::{
-    Dag, Id, Name, Verdict, differentiate, evaluate_bounded, gradient, is_proved_zero, to_text,
-};
+use crate::algebra::{Dag, Id, Name, Verdict, evaluate_bounded, is_proved_zero, to_text};
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::proofs as codes;
-use crate::model::{Claim, Conservation, Conserved, Model, Region};
+use crate::model::{Claim, Conservation, Conserved, Region};
 
 /// `assume` wants this many points in the domain …
 const FEWEST_POINTS: usize = 64;
@@ -30,29 +28,21 @@ pub(super) fn examine(
     psi: &Conserved,
     diagnostics: &mut Diagnostics,
 ) -> Option<(Conservation, Quantity)> {
-    let gradient = gradient(dag, psi.psi, &variables.states);
-    let by_time = differentiate(dag, psi.psi, &Model::time());
-    let autonomous = is_proved_zero(dag, by_time);
+    let quantity = Quantity::new(dag, &variables.states, psi.psi);
     let name = &psi.ident;
     let is_zero = |id: &Id| is_proved_zero(dag, *id);
-    if autonomous && gradient.iter().all(is_zero) {
+    if quantity.autonomous && quantity.gradient.iter().all(is_zero) {
         let message = format!(
             "`{name}` depends neither on the states nor on `t`: a constant needs no conservation; remove it"
         );
         diagnostics.report(codes::CONSTANT_QUANTITY, psi.span, message);
         return None;
     }
-    let quantity = Quantity {
-        gradient,
-        by_time,
-        autonomous,
-        psi: psi.psi,
-    };
     if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, &quantity) {
         return Some((Conservation::ByConstruction, quantity));
     }
-    let residual = rate(dag, by_time, &quantity.gradient, &region.field);
-    let formulas = formulas(dag, region, &quantity);
+    let residual = rate(dag, quantity.by_time, &quantity.gradient, &region.field);
+    let formulas = formulas(dag, &region.field, &quantity);
     match decide_zero_on(dag, residual, &formulas) {
         Verdict::Proved => {
             let roots: Vec<Id> = formulas.into_iter().chain([residual]).collect();
@@ -86,9 +76,9 @@ pub(super) fn examine(
 
 /// On whose domain the proof holds: ψ, its derivatives, and the components of f that ψ depends
 /// on.
-fn formulas(dag: &Dag, region: &Region, quantity: &Quantity) -> Vec<Id> {
+pub(super) fn formulas(dag: &Dag, field: &[Id], quantity: &Quantity) -> Vec<Id> {
     let mut roots = vec![quantity.psi, quantity.by_time];
-    for (&slope, &component) in quantity.gradient.iter().zip(&region.field) {
+    for (&slope, &component) in quantity.gradient.iter().zip(field) {
         roots.push(slope);
         if !dag.is_zero(slope) {
             roots.push(component);
@@ -161,24 +151,13 @@ fn assumed(
     roots.extend(region.field.iter().copied().chain([quantity.psi]));
     let name = &psi.ident;
     let place = in_region(region);
-    let (mut count, mut largest) = (0, 0.0_f64);
+    let mut largest = 0.0_f64;
+    let mut trials = Trials::default();
     for point in points(dag, variables).take(MOST_TRIALS) {
         let values = evaluate_bounded(dag, &roots, &point);
-        if values.iter().any(|(value, _)| !value.is_finite()) {
-            continue;
-        }
-        let size: f64 = values
-            .iter()
-            .take(terms)
-            .map(|(value, _)| value.abs())
-            .sum();
-        let Some(&(residual, error)) = values.get(terms) else {
+        let Some((residual, size)) = trials.judge(&values, terms) else {
             continue;
         };
-        // a value without digits says nothing
-        if size == 0.0 || error.is_nan() || error > SMALL * size {
-            continue;
-        }
         let relative = residual.abs() / size;
         if relative > SMALL {
             let depends = dag.variables(roots.iter().copied());
@@ -195,21 +174,72 @@ fn assumed(
             diagnostics.report(codes::ASSUMED_NOT_SMALL, psi.span, message);
             return None;
         }
-        count += 1;
         largest = largest.max(relative);
-        if count == ENOUGH_POINTS {
+        if trials.usable == ENOUGH_POINTS {
             break;
         }
     }
-    if count < FEWEST_POINTS {
+    if trials.usable < FEWEST_POINTS {
         let message = format!(
-            "`{name}` is assumed to be conserved{place}, but its formulas have a value at {count} of {MOST_TRIALS} points only, and {FEWEST_POINTS} are needed to check it"
+            "`{name}` is assumed to be conserved{place}, but that can be checked at {} of {MOST_TRIALS} points only, and {FEWEST_POINTS} are needed: {}",
+            trials.usable,
+            trials.why_not(&name.to_string())
         );
         diagnostics.report(codes::ASSUMED_UNCHECKED, psi.span, message);
         return None;
     }
     Some(Conservation::Assumed {
-        points: count,
+        points: trials.usable,
         largest,
     })
+}
+
+/// The points at which ∂ₜψ + ∇ψ·f was evaluated.
+#[derive(Default)]
+struct Trials {
+    /// Where the residual says something.
+    usable: usize,
+    /// Where ψ, f or a derivative has no value.
+    undefined: usize,
+    /// Where every term is zero, or is as small as its rounding error.
+    without_terms: usize,
+}
+
+impl Trials {
+    /// The residual and the size of its terms at a point where it says something; `values` are
+    /// the `terms` terms, their sum, and everything else that has to be defined.
+    fn judge(&mut self, values: &[(f64, f64)], terms: usize) -> Option<(f64, f64)> {
+        if values.iter().any(|(value, _)| !value.is_finite()) {
+            self.undefined += 1;
+            return None;
+        }
+        let size: f64 = values
+            .iter()
+            .take(terms)
+            .map(|(value, _)| value.abs())
+            .sum();
+        let &(residual, error) = values.get(terms)?;
+        // a value without digits says nothing
+        if size == 0.0 || error.is_nan() || error > SMALL * size {
+            self.without_terms += 1;
+            return None;
+        }
+        self.usable += 1;
+        Some((residual, size))
+    }
+
+    /// Why the other points say nothing.
+    fn why_not(&self, name: &str) -> String {
+        let no_value = |count: usize| format!("its formulas have no value at {count}");
+        let no_terms = |count: usize| {
+            format!("the terms of d/dt {name} are zero up to rounding errors at {count}")
+        };
+        match (self.undefined, self.without_terms) {
+            (undefined, 0) => no_value(undefined),
+            (0, without_terms) => no_terms(without_terms),
+            (undefined, without_terms) => {
+                format!("{}, and {}", no_value(undefined), no_terms(without_terms))
+            }
+        }
+    }
 }

@@ -28,9 +28,9 @@ mod properties;
 #[cfg(test)]
 mod tests;
 
-use crate::algebra::{Dag, Id, Name};
+use crate::algebra::{Dag, Id, Name, differentiate, gradient, is_proved_zero};
 use crate::diagnostics::Diagnostics;
-use crate::model::{Conservation, Independence, Model};
+use crate::model::{Conservation, DomainCondition, Independence, Model};
 
 /// Proves what `model` declares; what is false or cannot be proved is reported.
 pub fn check(model: &mut Model, diagnostics: &mut Diagnostics) {
@@ -46,6 +46,21 @@ pub fn check(model: &mut Model, diagnostics: &mut Diagnostics) {
         }
     }
     interfaces::check(model, &variables, diagnostics);
+}
+
+/// Where ψ is conserved in these regions, if it was proved to be: on the domain of ψ, of its
+/// derivatives, and of the components of f that it depends on.
+pub fn domain(model: &mut Model, regions: &[usize], psi: Id) -> Vec<DomainCondition> {
+    let states = model.state_names();
+    let quantity = Quantity::new(&mut model.dag, &states, psi);
+    let mut formulas = Vec::new();
+    for region in regions
+        .iter()
+        .filter_map(|&region| model.regions.get(region))
+    {
+        formulas.extend(conservation::formulas(&model.dag, &region.field, &quantity));
+    }
+    conditions::conditions(&mut model.dag, &formulas)
 }
 
 /// What is known of the conserved quantities of region number `index`, and of their
@@ -117,6 +132,19 @@ struct Quantity {
     by_time: Id,
     /// Whether ∂ₜψ is zero.
     autonomous: bool,
+}
+
+impl Quantity {
+    fn new(dag: &mut Dag, states: &[Name], psi: Id) -> Self {
+        let gradient = gradient(dag, psi, states);
+        let by_time = differentiate(dag, psi, &Model::time());
+        Self {
+            psi,
+            gradient,
+            by_time,
+            autonomous: is_proved_zero(dag, by_time),
+        }
+    }
 }
 
 /// ∂ₜu + ∇u·f

@@ -2,7 +2,7 @@
 
 use super::{Evidence, Proofs, Scheme};
 use crate::algebra::{Dag, Id, to_text};
-use crate::model::{Conservation, Conserved, DomainCondition, Independence, Region};
+use crate::model::{Conservation, Conserved, Independence, Region};
 
 /// How a statement is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -77,7 +77,7 @@ fn conservation(dag: &Dag, psi: &Conserved) -> Finding {
         Conservation::Proved(conditions) => {
             let conditions: Vec<String> = conditions
                 .iter()
-                .map(|condition| domain(dag, condition))
+                .map(|condition| condition.statement(dag))
                 .collect();
             (Grounds::Proved, conditions.join(", "))
         }
@@ -92,16 +92,6 @@ fn conservation(dag: &Dag, psi: &Conserved) -> Finding {
         grounds,
         statement: format!("d{name}/dt = 0"),
         remark,
-    }
-}
-
-/// `x > 0`
-fn domain(dag: &Dag, condition: &DomainCondition) -> String {
-    match condition {
-        DomainCondition::Positive(u) => format!("{} > 0", to_text(dag, *u)),
-        DomainCondition::NotNegative(u) => format!("{} ≥ 0", to_text(dag, *u)),
-        DomainCondition::NonZero(u) => format!("{} ≠ 0", to_text(dag, *u)),
-        DomainCondition::WithinOne(u) => format!("|{}| ≤ 1", to_text(dag, *u)),
     }
 }
 
@@ -177,4 +167,50 @@ fn identities(region: &Region, proofs: &Proofs) -> Vec<Finding> {
     }
     identity(proofs.consistent, "f^τ(t, x, t, x) = f(t, x)");
     findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said about the rate of the interface `wall` in each of two regions.
+    fn levels(left: &str, right: &str) -> [Vec<Finding>; 2] {
+        let text = format!(
+            "system S {{ state x, y; interface wall = x^2 - y;
+                region left where wall < 0 {{ {left} }} region right where wall > 0 {{ {right} }} }}"
+        );
+        let scheme = crate::read(text.parse().expect("tokens")).expect("a scheme");
+        [0, 1].map(|region| {
+            let mut findings = findings(&scheme, region);
+            findings.retain(|finding| finding.statement.contains("wall"));
+            findings
+        })
+    }
+
+    #[test]
+    fn a_flow_along_an_interface_is_found() {
+        let along = "der(x) = 1; der(y) = 2*x;";
+        let across = "der(x) = 1; der(y) = 1;";
+        let found = |region: &str| Finding {
+            grounds: Grounds::Proved,
+            statement: "dwall/dt = 0".into(),
+            remark: format!(
+                "the flow of `{region}` never crosses `wall`: what enters can never leave through it"
+            ),
+        };
+        assert_eq!(levels(along, across), [vec![found("left")], vec![]]);
+        assert_eq!(levels(across, along), [vec![], vec![found("right")]]);
+        assert_eq!(levels(across, "der(x) = 1; der(y) = -1;"), [vec![], vec![]]);
+    }
+
+    #[test]
+    fn the_listing_shows_a_flow_along_an_interface() {
+        let text = "system S { state x, y; interface wall = x;
+            region left where wall < 0 { der(x) = 0; der(y) = 1; }
+            region right where wall > 0 { der(x) = 1; der(y) = 0; } }";
+        let scheme = crate::read(text.parse().expect("tokens")).expect("a scheme");
+        for listing in [crate::emit::listing(&scheme), crate::emit::latex(&scheme)] {
+            assert_eq!(listing.matches("never crosses").count(), 1, "{listing}");
+        }
+    }
 }

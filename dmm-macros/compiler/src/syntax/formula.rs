@@ -184,6 +184,10 @@ fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Ex
 fn call(input: ParseStream<'_>, function: &Ident, nesting: usize) -> syn::Result<Expression> {
     let content;
     let parentheses = parenthesized!(content in input);
+    let whole = Extent::from(function).to(parentheses.span.close());
+    if range::counts(&content) {
+        return Err(range::no_sum(function, whole));
+    }
     let mut arguments = Vec::new();
     while !content.is_empty() {
         let argument = terms(&content, deeper(input, nesting)?)?;
@@ -197,7 +201,7 @@ fn call(input: ParseStream<'_>, function: &Ident, nesting: usize) -> syn::Result
         function: function.clone(),
         arguments,
     };
-    Expression::new(kind, Extent::from(function).to(parentheses.span.close()))
+    Expression::new(kind, whole)
 }
 
 /// `[formula]` behind the name of a group, with the place of its `]`.

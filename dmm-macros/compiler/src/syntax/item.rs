@@ -75,7 +75,16 @@ fn item(
     };
     if let Some(error) = unknown::misplaced(&keyword, place) {
         name::word(input)?;
-        return Err(error);
+        if keyword != "state" && keyword != "param" {
+            return Err(error);
+        }
+        // the names are kept: others refer to them
+        name::report(diagnostics, error);
+        let mut known = Diagnostics::new();
+        items.extend(behind_keyword(
+            input, &keyword, attributes, place, &mut known,
+        )?);
+        return Ok(());
     }
     if !name::ITEMS.contains(&keyword.to_string().as_str()) {
         return Err(unknown::word(input, &keyword, place));

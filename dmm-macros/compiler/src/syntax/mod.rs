@@ -35,7 +35,8 @@
 //! `conserved` and `for` items.
 //! Documentation comments may precede the system, every item but `for`, and every name of a
 //! list. An error loses one item: parsing goes on behind its `;` or block, so that all are found.
-//! Names of states, parameters and regions are kept even then, for the stub of the declaration.
+//! Names of the system, of states, parameters and regions are kept even then, for the stub of the
+//! declaration.
 
 mod canonical;
 mod condition;
@@ -66,7 +67,7 @@ pub use declaration::{
     Group, HamiltonianItem, Item, ParameterItem, Range, RegionItem, Relation, Target,
 };
 pub use expression::{Expression, ExpressionKind, Operator};
-pub(crate) use name::is_identifier;
+pub(crate) use name::{is_identifier, is_name_of_type};
 
 /// Brackets of any kind may be nested this deep. It is more than the grammar can use, and little
 /// enough for the recursive descent into them.
@@ -140,7 +141,7 @@ fn system(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<
         return Err(HEAD.error(&keyword, EXPECTED));
     }
     name::word(input)?;
-    let name = name::declared_type(input)?;
+    let name = name::declared_type(input, diagnostics)?;
     if !input.peek(token::Brace) {
         let message = format!("expected `{{` after `system {name}`");
         return Err(HEAD.error(input.span(), message));

@@ -102,14 +102,22 @@ fn word_as_name(input: ParseStream<'_>) -> syn::Result<(Ident, Option<syn::Error
     Ok((ident, refusal))
 }
 
-/// The name of a system, which becomes a type.
-pub(super) fn declared_type(input: ParseStream<'_>) -> syn::Result<Ident> {
-    let ident = declared(input)?;
+/// The name of a system, which becomes a type. It is kept even if it cannot be one, for the stub.
+pub(super) fn declared_type(
+    input: ParseStream<'_>,
+    diagnostics: &mut Diagnostics,
+) -> syn::Result<Ident> {
+    let ident = declared_or_reported(input, diagnostics)?;
     if PRIMITIVE_TYPES.contains(&ident.to_string().as_str()) {
         let message = format!("`{ident}` is a type of Rust and cannot be the name of a system");
-        return Err(RESERVED_WORD.error(&ident, message));
+        diagnostics.report(RESERVED_WORD, &ident, message);
     }
     Ok(ident)
+}
+
+/// Whether Rust accepts `text` as the name of a type that hides none of its own.
+pub(crate) fn is_name_of_type(text: &str) -> bool {
+    is_identifier(text) && !PRIMITIVE_TYPES.contains(&text)
 }
 
 /// The error on a word of the language that is used as a name.

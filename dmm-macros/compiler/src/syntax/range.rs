@@ -12,7 +12,7 @@ use super::{ForItem, Range};
 use super::{formula, mistake, name};
 use crate::algebra::Rational;
 use crate::diagnostics::catalogue::syntax::{ATTRIBUTE, DEPTH, LOOP, RANGE, SUM};
-use crate::diagnostics::{Diagnostics, Extent};
+use crate::diagnostics::{Diagnostics, Extent, closest};
 
 /// Loops may be nested this deep.
 const DEEPEST_LOOP: usize = 8;
@@ -71,15 +71,35 @@ fn no_range(input: ParseStream<'_>, start: &Expression) -> String {
     format!("a range has a start and an end: write `0..{start}`, which excludes {start}")
 }
 
+/// How a sum is written.
+const FORM: &str = "a sum is written `sum(i in 0..n, term)`";
+
+/// Whether the parentheses with `content` begin with `i in`.
+pub(super) fn counts(content: ParseStream<'_>) -> bool {
+    name::peek_word(content).is_some() && content.peek2(Token![in])
+}
+
+/// What is said about a range in the call of something else than `sum`.
+pub(super) fn no_sum(function: &Ident, whole: Extent) -> syn::Error {
+    match closest(&function.to_string(), ["sum"]) {
+        Some(meant) => SUM.error(
+            function,
+            format!("there is no `{function}` over a range; did you mean `{meant}`?"),
+        ),
+        None => SUM.error(
+            whole,
+            format!("only a sum goes through a range, not `{function}`: {FORM}"),
+        ),
+    }
+}
+
 /// The rest of `sum(i in start..end, term)`.
 pub(super) fn sum(input: ParseStream<'_>, word: &Ident, nesting: usize) -> syn::Result<Expression> {
-    const FORM: &str = "a sum is written `sum(i in 0..n, term)`";
     let nesting = formula::deeper(input, nesting)?;
     let content;
     let parentheses = parenthesized!(content in input);
     let whole = Extent::from(word).to(parentheses.span.close());
-    let counts = name::peek_word(&content).is_some() && content.peek2(Token![in]);
-    if !counts {
+    if !counts(&content) {
         return Err(SUM.error(whole, FORM));
     }
     let variable = name::declared(&content)?;

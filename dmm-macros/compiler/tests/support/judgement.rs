@@ -4,7 +4,6 @@
 
 use std::time::{Duration, Instant};
 
-use dmm_compiler::algebra::to_text;
 use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::model::{Conservation, DomainCondition, Model};
 use dmm_compiler::{check, proofs, syntax};
@@ -127,15 +126,9 @@ fn known(model: &Model) -> Vec<Statement> {
 
 /// `x > 0, y ≠ 0`
 fn domain(model: &Model, conditions: &[DomainCondition]) -> String {
-    let text = |id| to_text(&model.dag, id);
     let conditions: Vec<String> = conditions
         .iter()
-        .map(|condition| match *condition {
-            DomainCondition::Positive(u) => format!("{} > 0", text(u)),
-            DomainCondition::NotNegative(u) => format!("{} ≥ 0", text(u)),
-            DomainCondition::NonZero(u) => format!("{} ≠ 0", text(u)),
-            DomainCondition::WithinOne(u) => format!("|{}| ≤ 1", text(u)),
-        })
+        .map(|condition| condition.statement(&model.dag))
         .collect();
     conditions.join(", ")
 }

@@ -48,8 +48,8 @@ fn a_function_sees_what_is_declared_before_it() {
             "`i` is not declared",
         ),
         (
-            "fn f(x) = x; der(x) = f(x);",
-            "the argument `x` has the name of a state",
+            "fn f(a) = sum(x in 0..3, a*x); der(x) = f(x);",
+            "the loop variable `x` has the name of a state",
         ),
         (
             "fn f(a) = sum(a in 0..3, a); der(x) = f(x);",
@@ -57,7 +57,19 @@ fn a_function_sees_what_is_declared_before_it() {
         ),
         (
             "fn f(a, a) = a; der(x) = f(x, x);",
-            "the argument `a` is there already",
+            "the argument `a` is declared twice; rename one of the two",
+        ),
+        (
+            "fn f(x, x) = x; der(x) = f(x, x);",
+            "the argument `x` is declared twice",
+        ),
+        (
+            "fn f(pi) = pi; der(x) = f(x);",
+            "`pi` is the number π and cannot be an argument",
+        ),
+        (
+            "fn f(sin) = sin; der(x) = f(x);",
+            "`sin` is a built-in function and cannot be an argument",
         ),
         (
             "fn f(t) = t; der(x) = f(x);",
@@ -83,6 +95,79 @@ fn a_function_sees_what_is_declared_before_it() {
          region low where wall < 0 { let stretch = x; der(x) = f(stretch); }
          region high where wall > 0 { der(x) = 1; }",
         "a `let` of the region `low`",
+    );
+}
+
+#[test]
+fn an_argument_hides_what_is_outside() {
+    let model = model(
+        "system S {
+            state q, x, z[2];
+            param k = 2, m[2] = 1;
+            const c = 3;
+            let r = q + x;
+            interface wall = x - q;
+            fn V(q) = k*q^2/2;
+            // the state q is seen where the argument is not called q
+            fn W(a) = V(a)*q;
+            // nested: the q of V is the k of U, the q of U is the state
+            fn U(k) = V(k + 1) + V(V(q)) + k;
+            // groups, constants, functions and interfaces are hidden as well
+            fn G(z, m, c, r, wall, V) = z + m + c + r + wall + V;
+            fn E(c) = z[c]*c;
+            fn own(own) = 2*own;
+            region above where wall > 0 { der(q) = V(x); der(x) = W(x); der(z[0]) = U(x); der(z[1]) = G(1, x, q, k, m[0], z[1]); }
+            region below where wall < 0 { der(q) = V(q); der(x) = V(z[0] + c); der(z[0]) = E(1); der(z[1]) = own(r); }
+        }",
+    );
+    assert_eq!(
+        field(&model, 0),
+        [
+            "k*x^2/2",
+            "k*x^2*q/2",
+            "k*(x + 1)^2/2 + k*(k*q^2/2)^2/2 + x",
+            "x + 1 + q + k + m[0] + z[1]",
+        ]
+    );
+    assert_eq!(
+        field(&model, 1),
+        ["k*q^2/2", "k*(z[0] + 3)^2/2", "z[1]", "2*(q + x)"]
+    );
+}
+
+#[test]
+fn what_an_argument_hides_is_not_used() {
+    all(
+        "state q; param k = 1; fn f(k) = 2*k; der(q) = f(q);",
+        &["the parameter `k` is never used; remove it"],
+    );
+    one(
+        "state q; fn f(q) = 1; der(q) = f(q) + q;",
+        "the argument `q` of `f` is never used; remove it",
+    );
+    one(
+        "state q[2]; fn f(q) = q[0]; der(q[0]) = f(q[1]); der(q[1]) = 1;",
+        "`q` is one argument, not a group: leave out the index, or rename the argument, which hides the group",
+    );
+    one(
+        "state q; fn f(q) = q[0]; der(q) = f(q);",
+        "`q` is one argument, not a group: leave out the index [PWS233]",
+    );
+    one(
+        "state q; fn V(q) = q^2; fn f(V) = V(q); der(q) = f(q) + V(q);",
+        "`V` is an argument, not a function",
+    );
+    one(
+        "state q[2]; fn f(q) = sum(i in 0..2, i*q); der(q[0]) = f(q); der(q[1]) = 1;",
+        "`q` is a group of 2 elements",
+    );
+    one(
+        "state q; fn f(q) = 1/q; der(q) = f(0) + f(q);",
+        "in `f(0)`: division by `q`, which is zero",
+    );
+    one(
+        "state q, z[2]; fn f(q) = z[q]; der(q) = f(1) + f(q); der(z[0]) = 1; der(z[1]) = 1;",
+        "in `f(q)`: the argument `q` is part of an index, so that it has to be a constant",
     );
 }
 

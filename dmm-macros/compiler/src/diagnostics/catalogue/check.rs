@@ -11,11 +11,11 @@ super::codes! {
         "`t`, `pi` and the built-in functions mean the same in every declaration.",
         "Choose another name.";
     DECLARED_TWICE = 203, "a name is declared twice",
-        "A name stands for one thing in the whole declaration.",
+        "A name stands for one thing in the whole declaration. Only an argument of a `fn` may have the name of something outside, which its formula then does not see.",
         "Rename one of the two, or remove it.";
-    SHADOWED = 204, "a loop variable or an argument has the name of something else",
-        "Within the loop or function the name would mean something else than around it.",
-        "Rename the loop variable or the argument.";
+    SHADOWED = 204, "a loop variable has the name of something else",
+        "Within the loop the name would mean something else than around it.",
+        "Rename the loop variable.";
     UNUSED = 205, "something is declared and never used",
         "It would have no effect, so that a formula is probably missing it.",
         "Use it, remove it, or begin its name with `_`.";

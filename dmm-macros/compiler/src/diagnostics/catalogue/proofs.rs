@@ -8,8 +8,8 @@ super::codes! {
         "∂ₜψ + ∇ψ·f was found neither to be zero nor clearly not to be: the normal form does not know every relation between roots, logarithms and inverse functions.",
         "Write ψ or f in another way, or accept the quantity with `assume conserved`, which checks it numerically at many points.";
     ASSUMED_UNCHECKED = 302, "an assumed quantity could not be checked",
-        "`assume conserved` evaluates ∂ₜψ + ∇ψ·f at many points, and at too few of them the formulas have a value with enough digits.",
-        "Write ψ and f such that they are defined for states and parameters of size one, or leave the quantity out.";
+        "`assume conserved` compares ∂ₜψ + ∇ψ·f with its terms at many points. At too few of them the formulas have a value, or the terms are more than the rounding errors of what cancels within them.",
+        "Write ψ and f such that they are defined for states and parameters of size one, and leave out what cancels within a term; or leave the quantity out.";
     ASSUMED_NOT_SMALL = 303, "an assumed quantity is not conserved numerically",
         "∂ₜψ + ∇ψ·f is not small against its terms at a point at which `assume conserved` evaluated it.",
         "Correct ψ or f, or leave the quantity out.";

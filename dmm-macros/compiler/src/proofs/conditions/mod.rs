@@ -14,18 +14,18 @@
 //! | tan u | cos u ≠ 0 |
 //!
 //! Conditions are taken apart into their factors; those that hold anyway, and those that follow
-//! from others, are left out.
+//! from others, are left out (see the module `redundant`).
+
+mod redundant;
 
 use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use crate::algebra::evaluate::{Interval, enclose, enclose_within};
-use crate::algebra::{Dag, Function, Id, Math, Name, is_proved_zero};
+use crate::algebra::evaluate::{Interval, enclose};
+use crate::algebra::{Dag, Function, Id, Math};
 use crate::model::DomainCondition;
-
-/// Conditions that are compared with each other by the normal form, at most.
-const MOST_COMPARED: usize = 16;
+use redundant::{equal_condition, is_within_by, without_consequences, without_multiples};
 
 /// What has to hold for every node of `roots` to be defined.
 pub(super) fn conditions(dag: &mut Dag, roots: &[Id]) -> Vec<DomainCondition> {
@@ -45,6 +45,15 @@ enum Need {
 }
 
 impl Need {
+    /// The numbers that satisfy it.
+    fn range(self) -> Interval {
+        match self {
+            Self::NotNegative => Interval::NOT_NEGATIVE,
+            Self::NonZero => Interval::WHOLE.excluding_zero(),
+            Self::Positive => Interval::NOT_NEGATIVE.excluding_zero(),
+        }
+    }
+
     /// Whether every number of `range` satisfies it.
     fn holds(self, range: Interval) -> bool {
         match self {
@@ -175,6 +184,7 @@ impl Conditions {
             .filter(|&u| !is_within_by(dag, &kept, u))
             .collect();
         let kept = without_consequences(dag, kept);
+        let kept = without_multiples(dag, kept);
         let needs = kept.into_iter().map(|(id, need)| match need {
             Need::NotNegative => DomainCondition::NotNegative(id),
             Need::NonZero => DomainCondition::NonZero(id),
@@ -184,81 +194,6 @@ impl Conditions {
             .chain(within.into_iter().map(DomainCondition::WithinOne))
             .collect()
     }
-}
-
-/// The condition among `kept` on the same argument, or on its opposite if only its zeros
-/// matter.
-fn equal_condition(dag: &mut Dag, kept: &[(Id, Need)], id: Id, need: Need) -> Option<usize> {
-    if kept.len() > MOST_COMPARED {
-        return None;
-    }
-    (0..kept.len()).find(|&index| {
-        let Some(&(other, other_need)) = kept.get(index) else {
-            return false;
-        };
-        let difference = dag.sub(id, other);
-        if is_proved_zero(dag, difference) {
-            return true;
-        }
-        let sum = dag.add(id, other);
-        need == Need::NonZero && other_need == Need::NonZero && is_proved_zero(dag, sum)
-    })
-}
-
-/// Whether 1 − u² > 0 is among the conditions.
-fn is_within_by(dag: &mut Dag, kept: &[(Id, Need)], u: Id) -> bool {
-    let one = dag.integer(1);
-    let square = dag.powi(u, 2);
-    let difference = dag.sub(one, square);
-    kept.iter()
-        .any(|&(id, need)| id == difference && need != Need::NonZero)
-}
-
-/// The conditions but for those that hold because of what is asked of single variables.
-fn without_consequences(dag: &Dag, kept: Vec<(Id, Need)>) -> Vec<(Id, Need)> {
-    let mut variables: BTreeMap<Name, Interval> = BTreeMap::new();
-    for &(id, need) in &kept {
-        if let Math::Variable(name) = &dag[id] {
-            let range = match need {
-                Need::NotNegative => Interval::NOT_NEGATIVE,
-                Need::NonZero => Interval::WHOLE.excluding_zero(),
-                Need::Positive => Interval::NOT_NEGATIVE.excluding_zero(),
-            };
-            variables.insert(name.clone(), range);
-        }
-    }
-    let follows = |&(id, need): &(Id, Need)| {
-        let range = enclose_within(dag, &[id], &variables);
-        !matches!(dag[id], Math::Variable(_)) && range.iter().all(|&range| need.holds(range))
-    };
-    let kept: Vec<(Id, Need)> = kept.into_iter().filter(|one| !follows(one)).collect();
-    // no factor of what is positive is zero
-    let positive: Vec<Vec<Id>> = kept
-        .iter()
-        .filter(|&&(_, need)| need == Need::Positive)
-        .map(|&(id, _)| proper_factors(dag, id))
-        .collect();
-    let is_factor = |id: Id| positive.iter().any(|factors| factors.contains(&id));
-    kept.into_iter()
-        .filter(|&(id, need)| need != Need::NonZero || !is_factor(id))
-        .collect()
-}
-
-/// The factors and divisors of a product or quotient, without itself.
-fn proper_factors(dag: &Dag, id: Id) -> Vec<Id> {
-    let mut factors = Vec::new();
-    let mut open = vec![id];
-    while let Some(next) = open.pop() {
-        if next != id {
-            factors.push(next);
-        }
-        match dag[next] {
-            Math::Mul([u, v]) | Math::Div([u, v]) => open.extend([u, v]),
-            Math::Neg(u) => open.push(u),
-            _ => {}
-        }
-    }
-    factors
 }
 
 fn range(dag: &Dag, id: Id) -> Interval {

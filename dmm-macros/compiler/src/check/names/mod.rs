@@ -2,7 +2,9 @@
 //!
 //! A formula sees, from the inside outwards, the loop variables around it, the `let`s of its
 //! region, and the names of the system. The formula of a `fn` sees its arguments instead of the
-//! loop variables and the region at its call.
+//! loop variables and the region at its call; they hide what has the same name outside.
+
+mod declare;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -11,10 +13,8 @@ use proc_macro2::Ident;
 
 use super::Value;
 pub(super) use super::kind::Kind;
-use crate::algebra::Function;
-use crate::diagnostics::catalogue::check as codes;
-use crate::diagnostics::{Code, Diagnostics, closest};
-use crate::syntax::{Declaration, Item};
+use crate::diagnostics::closest;
+pub(super) use declare::is_built_in;
 
 /// What is known of a name so far.
 #[derive(Debug, Clone)]
@@ -63,134 +63,6 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The names that the top level declares; reserved and repeated ones are reported.
-    pub(super) fn collect(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Self {
-        let mut names = Self::default();
-        for item in &declaration.items {
-            match item {
-                Item::State(states) => {
-                    for state in states {
-                        names.declare(&state.ident, Kind::State, diagnostics);
-                    }
-                }
-                Item::Parameter(item) => {
-                    names.declare(&item.group.ident, Kind::Parameter, diagnostics)
-                }
-                Item::Constant(item) => names.declare(&item.ident, Kind::Constant, diagnostics),
-                Item::Let(item) => names.declare(&item.ident, Kind::Let, diagnostics),
-                Item::Interface(item) => names.declare(&item.ident, Kind::Interface, diagnostics),
-                Item::Function(item) => {
-                    names.declare(&item.definition.ident, Kind::Function, diagnostics)
-                }
-                Item::Region(region) => {
-                    names.note(&region.ident, "a region");
-                    names.note_all(&region.items, &format!(" of the region `{}`", region.ident));
-                }
-                other => names.note_all(std::slice::from_ref(other), ""),
-            }
-        }
-        names
-    }
-
-    /// Takes note of names that other formulas cannot use.
-    fn note_all(&mut self, items: &[Item], place: &str) {
-        for item in items {
-            match item {
-                Item::Conserved(item) => self.note(&item.definition.ident, "a conserved quantity"),
-                Item::Hamiltonian(item) => {
-                    self.note(&item.definition.ident, "the energy of a `hamiltonian`")
-                }
-                Item::Let(item) => self.note(&item.ident, &format!("a `let`{place}")),
-                Item::For(item) => self.note_all(&item.items, place),
-                _ => {}
-            }
-        }
-    }
-
-    fn note(&mut self, ident: &Ident, what: &str) {
-        self.others
-            .entry(ident.to_string())
-            .or_insert_with(|| what.into());
-    }
-
-    fn declare(&mut self, ident: &Ident, kind: Kind, diagnostics: &mut Diagnostics) {
-        if let Some(symbol) = self.new_symbol(ident, kind, diagnostics) {
-            self.system.insert(ident.to_string(), symbol);
-        }
-    }
-
-    /// Declares a `let` of the region at hand.
-    pub(super) fn declare_in_region(&mut self, ident: &Ident, diagnostics: &mut Diagnostics) {
-        if let Some(symbol) = self.new_symbol(ident, Kind::Let, diagnostics) {
-            self.region.insert(ident.to_string(), symbol);
-        }
-    }
-
-    fn new_symbol(
-        &mut self,
-        ident: &Ident,
-        kind: Kind,
-        diagnostics: &mut Diagnostics,
-    ) -> Option<Symbol> {
-        let text = ident.to_string();
-        let problem = match (reserved(&text), self.get(&text)) {
-            (Some(meaning), _) => Some((
-                codes::RESERVED,
-                format!(
-                    "`{text}` is {meaning} and cannot be declared as {}",
-                    kind.article()
-                ),
-            )),
-            (None, Some(earlier)) if earlier.kind == kind => Some((
-                codes::DECLARED_TWICE,
-                format!("the {kind} `{text}` is declared twice"),
-            )),
-            (None, Some(earlier)) if kind == Kind::Interface => Some((
-                codes::DECLARED_TWICE,
-                format!(
-                    "`{text}` is already declared as {}: an interface has a name of its own, as in `interface wall = {text};`",
-                    earlier.kind.article()
-                ),
-            )),
-            (None, Some(earlier)) => Some((
-                codes::DECLARED_TWICE,
-                format!("`{text}` is already declared as {}", earlier.kind.article()),
-            )),
-            (None, None) => None,
-        };
-        if let Some((code, message)) = problem {
-            diagnostics.report(code, ident, message);
-            self.refused.insert(text);
-            return None;
-        }
-        Some(Symbol {
-            kind,
-            ident: ident.clone(),
-            meaning: Meaning::Ahead,
-            used: false,
-            order: self.system.len() + self.region.len(),
-        })
-    }
-
-    /// Why a loop variable or an argument cannot have this name.
-    pub(super) fn local_problem(&self, ident: &Ident, kind: Kind) -> Option<(Code, String)> {
-        let text = ident.to_string();
-        if let Some(meaning) = reserved(&text) {
-            let message = format!("`{text}` is {meaning} and cannot be {}", kind.article());
-            return Some((codes::RESERVED, message));
-        }
-        let earlier = self.get(&text)?;
-        let message = if earlier.kind == kind {
-            format!("the {kind} `{text}` is there already; choose another name")
-        } else {
-            format!(
-                "the {kind} `{text}` has the name of {}; choose another name",
-                earlier.kind.article()
-            )
-        };
-        Some((codes::SHADOWED, message))
-    }
-
     /// From here on, `ident` is a loop variable or an argument.
     pub(super) fn push_local(&mut self, ident: &Ident, kind: Kind, value: Value) {
         let symbol = Symbol {
@@ -255,14 +127,26 @@ impl Names {
         self.frames.last().copied().unwrap_or(0)
     }
 
+    /// The loop variable or argument of this name.
+    fn local(&self, name: &str) -> Option<&Symbol> {
+        let locals = self.local.get(self.visible_locals()..).unwrap_or_default();
+        let found = locals.iter().rev().find(|(local, _)| local == name);
+        found.map(|(_, symbol)| symbol)
+    }
+
     /// What `name` stands for.
     pub(super) fn get(&self, name: &str) -> Option<&Symbol> {
-        let locals = self.local.get(self.visible_locals()..).unwrap_or_default();
-        if let Some((_, symbol)) = locals.iter().rev().find(|(local, _)| local == name) {
+        if let Some(symbol) = self.local(name) {
             return Some(symbol);
         }
         let region = self.frames.is_empty().then(|| self.region.get(name));
         region.flatten().or_else(|| self.system.get(name))
+    }
+
+    /// Whether an argument of this name hides a group.
+    pub(super) fn hides_group(&self, name: &str) -> bool {
+        let symbol = self.system.get(name);
+        symbol.is_some_and(|symbol| matches!(symbol.meaning, Meaning::Elements(_)))
     }
 
     fn get_mut(&mut self, name: &str) -> Option<&mut Symbol> {
@@ -346,19 +230,4 @@ fn unused(symbols: &BTreeMap<String, Symbol>) -> Vec<(Kind, Ident)> {
 /// A leading underscore says so, as in Rust.
 pub(super) fn is_meant_to_be_unused(ident: &Ident) -> bool {
     ident.to_string().starts_with('_')
-}
-
-/// What the language itself means by `name`.
-fn reserved(name: &str) -> Option<&'static str> {
-    match name {
-        "t" => Some("the time"),
-        "pi" => Some("the number π"),
-        _ if is_built_in(name) => Some("a built-in function"),
-        _ => None,
-    }
-}
-
-/// Whether `name` is a built-in function.
-pub(super) fn is_built_in(name: &str) -> bool {
-    name.parse::<Function>().is_ok_and(Function::is_declarable)
 }

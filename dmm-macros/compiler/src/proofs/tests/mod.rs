@@ -1,11 +1,15 @@
 //! What is proved, and what is said about what is false.
 
+mod assumed;
+mod domains;
+
 use proc_macro2::TokenStream;
 
 use super::*;
 use crate::algebra::to_text;
-use crate::model::{DomainCondition, Model};
+use crate::model::Model;
 use crate::{check as names, syntax};
+use domains::domain;
 
 /// The model of a declaration after the proofs, and their messages.
 fn proved(items: &str) -> (Model, Vec<String>) {
@@ -34,26 +38,6 @@ fn sound(items: &str) -> Model {
 
 fn evidence(model: &Model) -> &Conservation {
     &model.regions[0].conserved[0].evidence
-}
-
-/// Where the first quantity is proved to be conserved.
-#[track_caller]
-fn domain(items: &str) -> String {
-    let model = sound(items);
-    let Conservation::Proved(conditions) = evidence(&model) else {
-        panic!("{items}: {:?}", evidence(&model));
-    };
-    let dag = &model.dag;
-    let conditions: Vec<String> = conditions
-        .iter()
-        .map(|condition| match condition {
-            DomainCondition::Positive(u) => format!("{} > 0", to_text(dag, *u)),
-            DomainCondition::NotNegative(u) => format!("{} ≥ 0", to_text(dag, *u)),
-            DomainCondition::NonZero(u) => format!("{} ≠ 0", to_text(dag, *u)),
-            DomainCondition::WithinOne(u) => format!("|{}| ≤ 1", to_text(dag, *u)),
-        })
-        .collect();
-    conditions.join(", ")
 }
 
 /// Where the gradients become dependent: factors; cofactors.
@@ -194,71 +178,6 @@ fn numbers_are_short() {
 }
 
 #[test]
-fn a_proof_says_where_it_holds() {
-    for (items, expected) in [
-        (
-            "state x, y; param k = 2; der(x) = y; der(y) = -k*x; conserved e = (y^2 + k*x^2)/2;",
-            "",
-        ),
-        // ψ is differentiable where x > 0; f alone would be content with x ≥ 0
-        (
-            "state x, y; der(x) = y; der(y) = -1/(2*sqrt(x)); conserved e = y^2/2 + sqrt(x);",
-            "x > 0",
-        ),
-        (
-            "state x, y; der(x) = y; der(y) = -sqrt(x); conserved e = y^2/2 + 2*x^(3/2)/3;",
-            "x ≥ 0",
-        ),
-        (
-            "state x, y; param a = 1, b = 1, c = 1, d = 1;
-             der(x) = x*(a - b*y); der(y) = y*(d*x - c);
-             conserved v = d*x - c*ln(x) + b*y - a*ln(y);",
-            "x > 0, y > 0",
-        ),
-        // |x| is not x: √(x²) has no derivative at 0
-        (
-            "state x, y; der(x) = y; der(y) = -x/sqrt(x^2); conserved e = y^2/2 + sqrt(x^2);",
-            "x ≠ 0",
-        ),
-        (
-            "state x, v; der(x) = v; der(v) = -asin(x);
-             conserved e = v^2/2 + x*asin(x) + sqrt(1 - x^2);",
-            "1 - x^2 > 0",
-        ),
-        (
-            "state x, v; der(x) = v; der(v) = -x/(1 + x^2); conserved e = v^2/2 + ln(1 + x^2)/2;",
-            "",
-        ),
-        (
-            "state x, v; param r = 1/2; der(x) = v; der(v) = -r*x^(r - 1);
-             conserved e = v^2/2 + x^r;",
-            "x > 0",
-        ),
-        (
-            "state x, v; der(x) = v; der(v) = -1 - tan(x)^2; conserved e = v^2/2 + tan(x);",
-            "cos(x) ≠ 0",
-        ),
-        (
-            "state x, y, u, v; param m = 1; let r = sqrt(x^2 + y^2);
-             der(x) = u; der(y) = v; der(u) = -m*x/r^3; der(v) = -m*y/r^3;
-             conserved e = (u^2 + v^2)/2 - m/r;",
-            "x^2 + y^2 ≠ 0",
-        ),
-        // ln(xy) needs both signs where it stands alone, and is split where ln x says x > 0
-        (
-            "state x, y; der(x) = x; der(y) = -y; conserved a = ln(x*y);",
-            "x*y > 0",
-        ),
-        (
-            "state x, y; der(x) = ln(x*y) - ln(x) - ln(y); der(y) = 1; conserved a = x;",
-            "x > 0, y > 0",
-        ),
-    ] {
-        assert_eq!(domain(items), expected, "{items}");
-    }
-}
-
-#[test]
 fn a_hamiltonian_is_conserved_by_construction() {
     let model = sound("state q, p; hamiltonian H = p^2/2 - cos(q) in (q, p);");
     assert_eq!(*evidence(&model), Conservation::ByConstruction);
@@ -268,56 +187,6 @@ fn a_hamiltonian_is_conserved_by_construction() {
     one(
         &format!("{pendulum} der(w) = 1;"),
         &["`H` is not conserved", "PWS300"],
-    );
-}
-
-/// True, and beyond the normal form: roots of numbers nested in each other, and the odd
-/// function arsinh written as a logarithm in two ways.
-const UNDECIDED: [&str; 3] = [
-    "state x, y; der(x) = y; der(y) = -sqrt(3 + 2*sqrt(2))*x;
-     CLAIM e = (y^2 + (1 + sqrt(2))*x^2)/2;",
-    "state x, v; der(x) = v; der(v) = ln(sqrt(1 + x^2) - x);
-     CLAIM e = v^2/2 + x*ln(x + sqrt(1 + x^2)) - sqrt(1 + x^2);",
-    "state x, v; der(x) = v; der(v) = -atan(x/sqrt(1 - x^2));
-     CLAIM e = v^2/2 + x*asin(x) + sqrt(1 - x^2);",
-];
-
-#[test]
-fn what_is_undecided_can_be_assumed() {
-    for items in UNDECIDED {
-        one(
-            &items.replace("CLAIM", "conserved"),
-            &["could not be proved", "assume conserved e = …;", "PWS301"],
-        );
-        let model = sound(&items.replace("CLAIM", "assume conserved"));
-        let &Conservation::Assumed { points, largest } = evidence(&model) else {
-            panic!("{items}: {:?}", evidence(&model));
-        };
-        assert!(
-            points >= 64 && largest < 1e-12,
-            "{points} points, {largest}"
-        );
-    }
-}
-
-#[test]
-fn an_assumption_does_not_hide_what_is_known() {
-    let harmonic = "state x, y; der(x) = y; der(y) = -x;";
-    let model = sound(&format!("{harmonic} assume conserved e = x^2 + y^2;"));
-    assert_eq!(*evidence(&model), Conservation::Proved(Vec::new()));
-    one(
-        &format!("{harmonic} assume conserved e = x^2 + 2*y^2;"),
-        &["`e` is not conserved", "PWS300"],
-    );
-}
-
-#[test]
-fn an_assumption_without_points_is_refused() {
-    // defined within 10⁻⁶ of x = 1000 only
-    one(
-        "state x, y; let s = sqrt(1/10^12 - (x - 1000)^2);
-         der(x) = s*(sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2)); der(y) = 1; assume conserved a = x;",
-        &["at 0 of 2048 points", "PWS302"],
     );
 }
 
