@@ -2,27 +2,156 @@
 //! parsing, proofs, derivation, optimisation and emission alike.
 
 use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::mem::discriminant;
+use std::slice;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use egg::{Id, define_language};
+use egg::{FromOp, FromOpError, Id, Language};
 use num_rational::BigRational;
 
-define_language! {
-    /// A node of an expression: an operation on other nodes of the same [`Dag`](super::Dag).
-    #[allow(missing_docs, reason = "egg's macro takes no documentation on variants")]
-    pub enum Math {
-        "pi" = Pi,
-        "+" = Add([Id; 2]),
-        "-" = Sub([Id; 2]),
-        "*" = Mul([Id; 2]),
-        "/" = Div([Id; 2]),
-        "neg" = Neg(Id),
-        "^" = Pow([Id; 2]),
-        Constant(Rational),
-        Call(Function, Id),
-        Pair(PairFunction, [Id; 2]),
-        Variable(Name),
+/// A node of an expression: an operation on other nodes of the same [`Dag`](super::Dag).
+///
+/// Not made by egg's `define_language!`, for the sake of the hash: that of a [`Rational`] is
+/// Euclid's algorithm, in a time that grows with the square of its length, every time that a
+/// node is looked up.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Math {
+    /// π
+    Pi,
+    /// a + b
+    Add([Id; 2]),
+    /// a − b
+    Sub([Id; 2]),
+    /// a·b
+    Mul([Id; 2]),
+    /// a/b
+    Div([Id; 2]),
+    /// −a
+    Neg(Id),
+    /// aᵇ
+    Pow([Id; 2]),
+    /// An exact number.
+    Constant(Rational),
+    /// A function of one argument.
+    Call(Function, Id),
+    /// A function of two arguments.
+    Pair(PairFunction, [Id; 2]),
+    /// A variable.
+    Variable(Name),
+}
+
+impl Hash for Math {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        discriminant(self).hash(state);
+        match self {
+            Self::Constant(value) => hash_number(value, state),
+            Self::Variable(name) => name.hash(state),
+            Self::Call(function, _) => function.hash(state),
+            Self::Pair(function, _) => function.hash(state),
+            _ => {}
+        }
+        self.children().hash(state);
+    }
+}
+
+/// Hashes a number by its numerator and denominator; equal numbers are in the same, lowest
+/// terms.
+pub(super) fn hash_number<H: Hasher>(value: &Rational, state: &mut H) {
+    value.numer().hash(state);
+    value.denom().hash(state);
+}
+
+impl Language for Math {
+    type Discriminant = std::mem::Discriminant<Self>;
+
+    fn discriminant(&self) -> Self::Discriminant {
+        discriminant(self)
+    }
+
+    fn matches(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Constant(a), Self::Constant(b)) => a == b,
+            (Self::Variable(a), Self::Variable(b)) => a == b,
+            (Self::Call(a, _), Self::Call(b, _)) => a == b,
+            (Self::Pair(a, _), Self::Pair(b, _)) => a == b,
+            _ => discriminant(self) == discriminant(other),
+        }
+    }
+
+    fn children(&self) -> &[Id] {
+        match self {
+            Self::Pi | Self::Constant(_) | Self::Variable(_) => &[],
+            Self::Neg(child) | Self::Call(_, child) => slice::from_ref(child),
+            Self::Add(children)
+            | Self::Sub(children)
+            | Self::Mul(children)
+            | Self::Div(children)
+            | Self::Pow(children)
+            | Self::Pair(_, children) => children,
+        }
+    }
+
+    fn children_mut(&mut self) -> &mut [Id] {
+        match self {
+            Self::Pi | Self::Constant(_) | Self::Variable(_) => &mut [],
+            Self::Neg(child) | Self::Call(_, child) => slice::from_mut(child),
+            Self::Add(children)
+            | Self::Sub(children)
+            | Self::Mul(children)
+            | Self::Div(children)
+            | Self::Pow(children)
+            | Self::Pair(_, children) => children,
+        }
+    }
+}
+
+impl fmt::Display for Math {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pi => f.write_str("pi"),
+            Self::Add(_) => f.write_str("+"),
+            Self::Sub(_) => f.write_str("-"),
+            Self::Mul(_) => f.write_str("*"),
+            Self::Div(_) => f.write_str("/"),
+            Self::Neg(_) => f.write_str("neg"),
+            Self::Pow(_) => f.write_str("^"),
+            Self::Constant(value) => value.fmt(f),
+            Self::Call(function, _) => function.fmt(f),
+            Self::Pair(function, _) => function.fmt(f),
+            Self::Variable(name) => name.fmt(f),
+        }
+    }
+}
+
+/// Reads the patterns of rules.
+impl FromOp for Math {
+    type Error = FromOpError;
+
+    fn from_op(op: &str, children: Vec<Id>) -> Result<Self, FromOpError> {
+        Ok(match (op, children.as_slice()) {
+            ("pi", []) => Self::Pi,
+            ("+", &[a, b]) => Self::Add([a, b]),
+            ("-", &[a, b]) => Self::Sub([a, b]),
+            ("*", &[a, b]) => Self::Mul([a, b]),
+            ("/", &[a, b]) => Self::Div([a, b]),
+            ("^", &[a, b]) => Self::Pow([a, b]),
+            ("neg", &[a]) => Self::Neg(a),
+            (name, &[]) => match name.parse() {
+                Ok(value) => Self::Constant(value),
+                Err(_) => Self::Variable(Name::new(name)),
+            },
+            (name, &[a]) => match name.parse() {
+                Ok(function) => Self::Call(function, a),
+                Err(_) => return Err(FromOpError::new(op, children)),
+            },
+            (name, &[a, b]) => match name.parse() {
+                Ok(function) => Self::Pair(function, [a, b]),
+                Err(_) => return Err(FromOpError::new(op, children)),
+            },
+            _ => return Err(FromOpError::new(op, children)),
+        })
     }
 }
 

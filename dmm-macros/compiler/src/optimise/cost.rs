@@ -13,6 +13,7 @@ use std::ops::AddAssign;
 
 use egg::{Id, Language};
 
+use super::operation::Symbol;
 use crate::algebra::{Dag, Function, Math};
 
 /// The unit of [`weight`]: the cost of a sum or product.
@@ -22,15 +23,15 @@ pub(super) const UNIT: u32 = 16;
 pub(super) const STORED: u32 = 1;
 
 /// The cost of an operation, in parts of [`UNIT`].
-pub(super) fn weight(node: &Math) -> u32 {
-    UNIT * match node {
-        Math::Constant(_) | Math::Variable(_) | Math::Pi => 0,
-        Math::Add(_) | Math::Sub(_) | Math::Mul(_) | Math::Neg(_) => 1,
-        Math::Call(Function::Abs, _) => 1,
-        Math::Div(_) => 4,
-        Math::Call(Function::Sqrt, _) => 6,
-        Math::Call(..) | Math::Pair(..) => 20,
-        Math::Pow(_) => 40,
+pub(super) fn weight(symbol: Symbol) -> u32 {
+    UNIT * match symbol {
+        Symbol::Fixed(_) | Symbol::Varying(_) | Symbol::Constant(_) | Symbol::Pi => 0,
+        Symbol::Add | Symbol::Sub | Symbol::Mul | Symbol::Neg => 1,
+        Symbol::Call(Function::Abs) => 1,
+        Symbol::Div => 4,
+        Symbol::Call(Function::Sqrt) => 6,
+        Symbol::Call(_) | Symbol::Pair(_) => 20,
+        Symbol::Pow => 40,
     }
 }
 
@@ -45,7 +46,7 @@ pub struct Count {
 
 impl Count {
     fn of(node: &Math) -> Self {
-        let cost = u64::from(weight(node) / UNIT);
+        let cost = u64::from(Symbol::of(node).map_or(0, weight) / UNIT);
         Self {
             operations: u64::from(cost > 0),
             weighted: cost,

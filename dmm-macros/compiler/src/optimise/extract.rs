@@ -6,16 +6,20 @@
 //! the expressions as they came and changes the node of one class at a time if that makes the
 //! whole cheaper; it ends never worse than it starts. What a change needs that is not computed
 //! so far is chosen as trees are, with everything that is computed anyway for nothing.
+//!
+//! A change is tried by computing what it needs, as long as that costs less than the best so
+//! far, and taken back from a log: this is the innermost loop of the optimiser.
 
 use std::collections::VecDeque;
 
+use super::operation::Operation;
 use super::table::{Class, Node, Table};
-use crate::algebra::Math;
 
 /// Rounds over all classes.
-const MOST_ROUNDS: usize = 24;
+const MOST_ROUNDS: usize = 16;
+
 /// Rounds without a gain before the climb ends. They go sideways, to forms of the same cost.
-const MOST_IDLE: usize = 3;
+const MOST_IDLE: usize = 2;
 
 /// Nodes of a class that are tried in one round.
 const MOST_TRIALS: usize = 24;
@@ -23,23 +27,36 @@ const MOST_TRIALS: usize = 24;
 /// Marks what was not chosen.
 pub(super) const NOTHING: Node = Node::MAX;
 
-/// The cheaper of two climbs: from the form as it came, `first`, and from the cheapest trees.
-pub(super) fn cheapest<'a>(table: &'a Table, roots: &[Class], first: &[Node]) -> Selection<'a> {
-    let mut given = Selection::new(table, roots, first);
-    given.climb();
-    let mut trees = Selection::new(table, roots, &vec![NOTHING; first.len()]);
-    trees.climb();
-    // trees have no cycle by construction, what came has none unless a rule removed its node
-    let sound = roots.iter().all(|&root| given.is_acyclic_from(root));
-    if trees.cost < given.cost || !sound {
-        trees
-    } else {
-        given
+/// A cheap choice for the results of every function. The climb starts from the form as it came,
+/// `first`, from the cheapest trees, and for results that are among those of another function,
+/// as f^τ is among what is computed with its Jacobian, from what was found for that.
+pub(super) fn cheapest<'a>(
+    table: &'a Table,
+    functions: &[Vec<Class>],
+    first: &[Node],
+) -> Vec<Selection<'a>> {
+    let of_nothing = vec![NOTHING; first.len()];
+    let mut found: Vec<Selection<'a>> = Vec::new();
+    for roots in functions {
+        let given = Selection::climbed(table, roots, first);
+        let trees = Selection::climbed(table, roots, &of_nothing);
+        found.push(given.or(trees, roots));
     }
+    for (index, roots) in functions.iter().enumerate() {
+        let larger = functions.iter().zip(&found).find(|(others, _)| {
+            others.len() > roots.len() && roots.iter().all(|root| others.contains(root))
+        });
+        if let Some((_, larger)) = larger {
+            let start = larger.nodes_or(first);
+            let seeded = Selection::climbed(table, roots, &start);
+            let own = found.remove(index);
+            found.insert(index, own.or(seeded, roots));
+        }
+    }
+    found
 }
 
 /// A choice of nodes with the number of uses of every class.
-#[derive(Clone)]
 pub(super) struct Selection<'a> {
     table: &'a Table,
     /// By class: its node, `NOTHING` where it was never chosen.
@@ -53,6 +70,33 @@ pub(super) struct Selection<'a> {
     bound: Vec<u64>,
     /// By class: whether computing it was tried, and did not pay.
     refused: Vec<bool>,
+    /// What was done since it began to matter, for taking it back.
+    log: Vec<Change>,
+    /// By class: the search for a cycle that saw it last, twice its number, and 1 more when
+    /// everything below it was seen.
+    seen: Vec<u32>,
+    searches: u32,
+    stack: Vec<Class>,
+}
+
+/// A change of a selection.
+#[derive(Clone, Copy)]
+enum Change {
+    /// A class has one use more.
+    Used(Class),
+    /// A class has one use less.
+    Released(Class),
+    /// A class had another node.
+    Chosen(Class, Node),
+    /// A class had another completion.
+    Completed(Class, Node),
+}
+
+/// A state of a selection to go back to.
+#[derive(Clone, Copy)]
+struct Mark {
+    changes: usize,
+    cost: u64,
 }
 
 impl<'a> Selection<'a> {
@@ -67,6 +111,10 @@ impl<'a> Selection<'a> {
             completion: vec![NOTHING; count],
             bound: vec![u64::MAX; count],
             refused: vec![false; count],
+            log: Vec::new(),
+            seen: vec![0; count],
+            searches: 0,
+            stack: Vec::new(),
         };
         selection.complete();
         for (completion, &first) in selection.completion.iter_mut().zip(first) {
@@ -75,15 +123,49 @@ impl<'a> Selection<'a> {
             }
         }
         for &root in roots {
-            selection.acquire(root);
+            selection.acquire(root, u64::MAX);
         }
         selection
     }
 
+    /// The result of a climb from the nodes `first`.
+    fn climbed(table: &'a Table, roots: &[Class], first: &[Node]) -> Self {
+        let mut selection = Self::new(table, roots, first);
+        selection.climb();
+        selection
+    }
+
+    /// The cheaper of two selections for `roots`, the second where the first is not sound:
+    /// trees have no cycle by construction, what came has none unless a rule removed its node.
+    fn or(mut self, mut other: Self, roots: &[Class]) -> Self {
+        let is_sound = |selection: &mut Self| {
+            let mut roots = roots.iter();
+            roots.all(|&root| selection.is_acyclic_from(root))
+        };
+        let other_is_better = other.cost < self.cost && is_sound(&mut other);
+        if other_is_better || !is_sound(&mut self) {
+            other
+        } else {
+            self
+        }
+    }
+
+    /// By class: the node that is computed, that of `others` where none is.
+    fn nodes_or(&self, others: &[Node]) -> Vec<Node> {
+        let chosen = self.chosen.iter().zip(&self.uses);
+        let nodes = chosen
+            .zip(others)
+            .map(|((&own, &uses), &other)| match uses {
+                0 => other,
+                _ => own,
+            });
+        nodes.collect()
+    }
+
     /// The operation chosen for a class, and the classes of its operands.
-    pub(super) fn operation(&self, class: Class) -> (&'a Math, &'a [Class]) {
+    pub(super) fn operation(&self, class: Class) -> (Operation, impl Iterator<Item = Class>) {
         let node = self.chosen[class];
-        (&self.table.nodes[node], &self.table.children[node])
+        (self.table.nodes[node], self.table.children(node))
     }
 
     /// Changes one class at a time as long as that makes the whole cheaper.
@@ -92,8 +174,17 @@ impl<'a> Selection<'a> {
         for round in 0..MOST_ROUNDS {
             let before = self.cost;
             self.complete();
-            for class in 0..self.table.classes.len() {
+            let count = self.table.classes.len();
+            for index in 0..count {
+                // results first, and from both ends in turns: what is gained at one end is
+                // often made possible at the other
+                let class = if round % 2 == 0 {
+                    count - 1 - index
+                } else {
+                    index
+                };
                 if self.uses[class] > 0 {
+                    self.log.clear();
                     self.improve(class, round, idle > 0);
                 }
             }
@@ -108,32 +199,43 @@ impl<'a> Selection<'a> {
     /// The cheapest change of one class, if there is one; `sideways`, one that costs the same.
     /// Of many nodes only some are tried, others the next `round`.
     fn improve(&mut self, class: Class, round: usize, sideways: bool) {
-        let old = self.chosen[class];
-        let before = self.cost;
-        self.release_node(old);
-        let without = self.cost;
-        let mut best = (before + u64::from(sideways), old);
         let nodes = self.table.classes[class].clone();
-        let first = nodes.start + (round * MOST_TRIALS) % nodes.len();
-        let mut trials = 0;
-        for node in (first..nodes.end).chain(nodes.start..first) {
-            if node == old || without + self.least(node) >= best.0 {
-                continue;
-            }
-            trials += 1;
-            if trials > MOST_TRIALS {
-                break;
-            }
-            self.chosen[class] = node;
-            let log = self.acquire_logged(node);
-            if self.cost < best.0 && self.is_acyclic_from(class) {
-                best = (self.cost, node);
-            }
-            self.undo(node, &log);
+        if nodes.len() < 2 {
+            return;
         }
-        self.chosen[class] = best.1;
-        self.completion[class] = best.1;
-        self.acquire_logged(best.1);
+        let old = self.chosen[class];
+        let start = self.mark();
+        self.release_node(old);
+        let without = self.mark();
+        let mut best = (start.cost + u64::from(sideways), old);
+        let mut node = nodes.start + (round * MOST_TRIALS) % nodes.len();
+        let mut trials = 0;
+        for _ in 0..nodes.len() {
+            if node != old && without.cost + self.least(node) < best.0 {
+                trials += 1;
+                if trials > MOST_TRIALS {
+                    break;
+                }
+                self.choose(class, node);
+                if self.acquire_node(node, best.0) && self.is_acyclic_from(class) {
+                    best = (self.cost, node);
+                }
+                self.undo(without);
+            }
+            node += 1;
+            if node == nodes.end {
+                node = nodes.start;
+            }
+        }
+        if best.1 == old {
+            self.undo(start);
+        } else {
+            self.choose(class, best.1);
+            self.log
+                .push(Change::Completed(class, self.completion[class]));
+            self.completion[class] = best.1;
+            self.acquire_node(best.1, u64::MAX);
+        }
     }
 
     /// Looks for classes that are not computed, and pay if they are because several others
@@ -143,146 +245,200 @@ impl<'a> Selection<'a> {
             if self.uses[class] > 0 || self.bound[class] == u64::MAX || self.refused[class] {
                 continue;
             }
-            let (mut saving, mut users) = (0, Vec::new());
-            for &(node, user) in &self.table.parents[class] {
+            let users = self.gaining(class);
+            if users.is_empty() {
+                continue;
+            }
+            self.log.clear();
+            let before = self.mark();
+            self.acquire(class, u64::MAX);
+            for user in users {
+                // an earlier change may have made it superfluous
                 if self.uses[user] > 0 {
-                    let others = self.table.children[node].iter();
-                    let others = others.filter(|&&other| other != class && self.uses[other] == 0);
-                    let own = u64::from(self.table.costs[node]);
-                    let new = others.fold(own, |sum, &other| sum.saturating_add(self.bound[other]));
-                    let now = self.replaceable(user);
-                    if new < now {
-                        saving += now - new;
-                        users.push(user);
-                    }
+                    self.improve(user, round, false);
                 }
             }
-            if users.len() > 1 && saving > self.bound[class] {
-                let before = self.clone();
-                self.acquire(class);
-                for user in users {
-                    // an earlier change may have made it superfluous
-                    if self.uses[user] > 0 {
-                        self.improve(user, round, false);
-                    }
-                }
-                self.release(vec![class]);
-                if self.cost >= before.cost {
-                    *self = before;
-                    self.refused[class] = true;
-                }
+            self.release(class);
+            if self.cost >= before.cost {
+                self.undo(before);
+                self.refused[class] = true;
             }
         }
+    }
+
+    /// The classes that become cheaper if `class` is computed, provided that this pays.
+    fn gaining(&self, class: Class) -> Vec<Class> {
+        let (mut saving, mut users) = (0, Vec::new());
+        for &(node, user) in &self.table.parents[class] {
+            if self.uses[user] == 0 {
+                continue;
+            }
+            let mut new = u64::from(self.table.costs[node]);
+            for &other in self.table.operands[node].all() {
+                if other != class && self.uses[other] == 0 {
+                    new = new.saturating_add(self.bound[other]);
+                }
+            }
+            let now = self.replaceable(user);
+            if new < now {
+                saving += now - new;
+                users.push(user);
+            }
+        }
+        if users.len() < 2 || saving <= self.bound[class] {
+            users.clear();
+        }
+        users
     }
 
     /// The cost of the node of a class, and of those of its operands that nothing else uses.
     fn replaceable(&self, class: Class) -> u64 {
-        let cost = |class: Class| u64::from(self.table.costs[self.chosen[class]]);
-        let operands = self.table.children[self.chosen[class]].iter();
-        let own = operands.filter(|&&operand| self.uses[operand] == 1);
-        cost(class) + own.map(|&operand| cost(operand)).sum::<u64>()
+        let node = self.chosen[class];
+        let mut cost = u64::from(self.table.costs[node]);
+        for &operand in self.table.operands[node].all() {
+            if self.uses[operand] == 1 {
+                cost += u64::from(self.table.costs[self.chosen[operand]]);
+            }
+        }
+        cost
     }
 
     /// What a node costs at least, with what is computed anyway.
     fn least(&self, node: Node) -> u64 {
-        let children = &self.table.children[node];
-        let dearest = children
-            .iter()
-            .map(|&child| match self.uses[child] {
-                0 => self.bound[child],
-                _ => 0,
-            })
-            .max();
-        u64::from(self.table.costs[node]).saturating_add(dearest.unwrap_or(0))
-    }
-
-    fn acquire(&mut self, class: Class) {
-        self.acquire_class(class, &mut Vec::new());
-    }
-
-    /// Acquires the operands of `node`; returns the classes whose choice was a completion, with
-    /// the choice before.
-    fn acquire_logged(&mut self, node: Node) -> Vec<(Class, Node)> {
-        let mut log = Vec::new();
-        self.cost += u64::from(self.table.costs[node]);
-        for &child in &self.table.children[node] {
-            self.acquire_class(child, &mut log);
+        let mut dearest = 0;
+        for &operand in self.table.operands[node].all() {
+            if self.uses[operand] == 0 && self.bound[operand] > dearest {
+                dearest = self.bound[operand];
+            }
         }
-        log
+        u64::from(self.table.costs[node]).saturating_add(dearest)
     }
 
-    fn acquire_class(&mut self, class: Class, log: &mut Vec<(Class, Node)>) {
-        let mut stack = vec![class];
+    fn mark(&self) -> Mark {
+        Mark {
+            changes: self.log.len(),
+            cost: self.cost,
+        }
+    }
+
+    /// Takes back everything since `mark`.
+    fn undo(&mut self, mark: Mark) {
+        while self.log.len() > mark.changes {
+            match self.log.pop() {
+                Some(Change::Used(class)) => self.uses[class] -= 1,
+                Some(Change::Released(class)) => self.uses[class] += 1,
+                Some(Change::Chosen(class, node)) => self.chosen[class] = node,
+                Some(Change::Completed(class, node)) => self.completion[class] = node,
+                None => break,
+            }
+        }
+        self.cost = mark.cost;
+    }
+
+    fn choose(&mut self, class: Class, node: Node) {
+        self.log.push(Change::Chosen(class, self.chosen[class]));
+        self.chosen[class] = node;
+    }
+
+    /// Computes `node`, unless the whole then costs `most` or more; whether that is done.
+    fn acquire_node(&mut self, node: Node, most: u64) -> bool {
+        self.cost += u64::from(self.table.costs[node]);
+        let table = self.table;
+        for &operand in table.operands[node].all() {
+            if self.cost >= most || !self.acquire(operand, most) {
+                return false;
+            }
+        }
+        self.cost < most
+    }
+
+    /// Computes `class`, unless the whole then costs `most` or more; whether that is done.
+    fn acquire(&mut self, class: Class, most: u64) -> bool {
+        let table = self.table;
+        let mut stack = std::mem::take(&mut self.stack);
+        stack.push(class);
         while let Some(class) = stack.pop() {
             self.uses[class] += 1;
+            self.log.push(Change::Used(class));
             if self.uses[class] > 1 {
                 continue;
             }
-            if self.completion[class] != NOTHING && self.completion[class] != self.chosen[class] {
-                log.push((class, self.chosen[class]));
-                self.chosen[class] = self.completion[class];
+            let completion = self.completion[class];
+            if completion != NOTHING && completion != self.chosen[class] {
+                self.choose(class, completion);
             }
             let node = self.chosen[class];
-            self.cost += u64::from(self.table.costs[node]);
-            stack.extend(&self.table.children[node]);
+            self.cost += u64::from(table.costs[node]);
+            if self.cost >= most {
+                break;
+            }
+            stack.extend_from_slice(table.operands[node].all());
         }
+        stack.clear();
+        self.stack = stack;
+        self.cost < most
     }
 
     fn release_node(&mut self, node: Node) {
         self.cost -= u64::from(self.table.costs[node]);
-        self.release(self.table.children[node].clone());
+        let table = self.table;
+        for &operand in table.operands[node].all() {
+            self.release(operand);
+        }
     }
 
-    fn release(&mut self, mut stack: Vec<Class>) {
+    fn release(&mut self, class: Class) {
+        let table = self.table;
+        let mut stack = std::mem::take(&mut self.stack);
+        stack.push(class);
         while let Some(class) = stack.pop() {
             self.uses[class] -= 1;
+            self.log.push(Change::Released(class));
             if self.uses[class] == 0 {
                 let node = self.chosen[class];
-                self.cost -= u64::from(self.table.costs[node]);
-                stack.extend(&self.table.children[node]);
+                self.cost -= u64::from(table.costs[node]);
+                stack.extend_from_slice(table.operands[node].all());
             }
         }
-    }
-
-    fn undo(&mut self, node: Node, log: &[(Class, Node)]) {
-        self.release_node(node);
-        for &(class, before) in log.iter().rev() {
-            self.chosen[class] = before;
-        }
+        self.stack = stack;
     }
 
     /// Whether no class under `start` is computed from itself.
-    fn is_acyclic_from(&self, start: Class) -> bool {
-        // 0: not seen, 1: being computed, 2: computed
-        let mut state = vec![0_u8; self.table.classes.len()];
-        let mut stack = vec![(start, false)];
-        while let Some((class, done)) = stack.pop() {
-            if done {
-                state[class] = 2;
+    fn is_acyclic_from(&mut self, start: Class) -> bool {
+        self.searches += 1;
+        let (open, done) = (2 * self.searches, 2 * self.searches + 1);
+        let table = self.table;
+        let mut stack = std::mem::take(&mut self.stack);
+        stack.push(start);
+        let mut acyclic = true;
+        'search: while let Some(&class) = stack.last() {
+            if self.seen[class] >= open {
+                // either everything below it was just seen, or it was stacked twice
+                self.seen[class] = done;
+                stack.pop();
                 continue;
             }
-            match state[class] {
-                1 => return false,
-                2 => continue,
-                _ => {}
-            }
-            state[class] = 1;
-            stack.push((class, true));
-            for &child in &self.table.children[self.chosen[class]] {
-                match state[child] {
-                    0 => stack.push((child, false)),
-                    1 => return false,
-                    _ => {}
+            self.seen[class] = open;
+            for &operand in table.operands[self.chosen[class]].all() {
+                if self.seen[operand] == open {
+                    acyclic = false;
+                    break 'search;
+                }
+                if self.seen[operand] != done {
+                    stack.push(operand);
                 }
             }
         }
-        true
+        stack.clear();
+        self.stack = stack;
+        acyclic
     }
 
     /// The cheapest tree of every class, with what is computed anyway for nothing.
     fn complete(&mut self) {
+        let table = self.table;
         let mut queue = VecDeque::new();
-        for class in 0..self.table.classes.len() {
+        for class in 0..table.classes.len() {
             let computed = self.uses[class] > 0;
             self.bound[class] = if computed { 0 } else { u64::MAX };
             self.completion[class] = if computed {
@@ -294,31 +450,27 @@ impl<'a> Selection<'a> {
                 queue.push_back(class);
             }
         }
-        for (node, children) in self.table.children.iter().enumerate() {
-            if children.is_empty() {
-                let class = self.owner(node);
-                self.lower_bound(class, node, &mut queue);
+        for (class, nodes) in table.classes.iter().enumerate() {
+            for node in nodes.clone() {
+                if table.operands[node].all().is_empty() {
+                    self.lower_bound(class, node, &mut queue);
+                }
             }
         }
         while let Some(class) = queue.pop_front() {
-            for index in 0..self.table.parents[class].len() {
-                let (node, parent) = self.table.parents[class][index];
-                self.lower_bound(parent, node, &mut queue);
+            for &(node, parent) in &table.parents[class] {
+                if self.bound[parent] > 0 {
+                    self.lower_bound(parent, node, &mut queue);
+                }
             }
         }
     }
 
-    fn owner(&self, node: Node) -> Class {
-        self.table
-            .classes
-            .partition_point(|nodes| nodes.end <= node)
-    }
-
     fn lower_bound(&mut self, class: Class, node: Node, queue: &mut VecDeque<Class>) {
-        let own = u64::from(self.table.costs[node]);
-        let bound = self.table.children[node]
-            .iter()
-            .fold(own, |sum, &child| sum.saturating_add(self.bound[child]));
+        let mut bound = u64::from(self.table.costs[node]);
+        for &operand in self.table.operands[node].all() {
+            bound = bound.saturating_add(self.bound[operand]);
+        }
         if bound < self.bound[class] {
             self.bound[class] = bound;
             self.completion[class] = node;

@@ -6,60 +6,67 @@ use std::collections::{BTreeSet, HashMap};
 use egg::{Id, Language};
 
 use super::Program;
-use crate::algebra::{Dag, Math, Name};
+use super::constants::Constants;
+use super::operation::{Operation, Symbol};
+use crate::algebra::{BuildQuick, Dag, Math};
 
 /// Operations with anonymous leaves; children are numbers of nodes, and come first.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Form {
     /// The operations.
-    pub(super) nodes: Vec<Math>,
-    /// The results of every function, as numbers of nodes.
-    pub(super) functions: Vec<Vec<Id>>,
+    pub(super) nodes: Vec<Operation>,
+    /// The constants in them.
+    pub(super) constants: Constants,
 }
 
-/// The names of leaves: what depends on parameters alone, and what does not.
-const FIXED: &str = "fixed ";
-const VARYING: &str = "varying ";
-
-/// Whether a leaf of a form depends on parameters alone.
-pub(super) fn is_fixed_leaf(name: &Name) -> bool {
-    name.as_str().starts_with(FIXED)
-}
+/// The results of every function, as numbers of nodes.
+pub(super) type Results = Vec<Vec<Id>>;
 
 impl Form {
-    /// The form of some `functions` of `program`, and what its leaves stand for; what is
-    /// already `made` is a leaf.
+    /// The form of some `functions` of `program`, their results, and what its leaves stand
+    /// for; what is already `made` is a leaf.
     pub(super) fn new(
         program: &Program<'_>,
         functions: &[Vec<Id>],
-        made: &HashMap<Id, Id>,
-    ) -> (Self, HashMap<Name, Id>) {
-        let mut leaves = HashMap::new();
-        let mut numbers: HashMap<Id, Id> = HashMap::new();
+        made: &HashMap<Id, Id, BuildQuick>,
+    ) -> (Self, Results, Vec<Id>) {
+        let mut leaves = Vec::new();
+        let mut numbers: HashMap<Id, Id, BuildQuick> = HashMap::default();
         let mut nodes = Vec::new();
+        let mut constants = Constants::new();
         for id in reachable(program, functions, made) {
             let node = &program.dag[id];
-            let leaf = matches!(node, Math::Variable(_)) || is_leaf(program, id, made);
-            let node = if leaf {
-                let kind = if (program.is_fixed)(id) {
-                    FIXED
-                } else {
-                    VARYING
-                };
-                let name = Name::new(&format!("{kind}{}", nodes.len()));
-                leaves.insert(name.clone(), id);
-                Math::Variable(name)
-            } else {
-                node.clone().map_children(|child| numbers[&child])
+            let symbol = match node {
+                _ if is_leaf(program, id, made) => None,
+                Math::Constant(value) => Some(Symbol::Constant(constants.number(value))),
+                node => Symbol::of(node),
+            };
+            let operation = match symbol {
+                Some(symbol) => {
+                    let operands: Vec<Id> =
+                        node.children().iter().map(|child| numbers[child]).collect();
+                    Operation::new(symbol, &operands)
+                }
+                None => {
+                    let number = leaves.len() as u32;
+                    leaves.push(id);
+                    let fixed = (program.is_fixed)(id);
+                    let kind = if fixed {
+                        Symbol::Fixed
+                    } else {
+                        Symbol::Varying
+                    };
+                    Operation::new(kind(number), &[])
+                }
             };
             numbers.insert(id, Id::from(nodes.len()));
-            nodes.push(node);
+            nodes.push(operation);
         }
-        let functions = functions
+        let results = functions
             .iter()
             .map(|roots| roots.iter().map(|root| numbers[root]).collect())
             .collect();
-        (Self { nodes, functions }, leaves)
+        (Self { nodes, constants }, results, leaves)
     }
 }
 
@@ -67,7 +74,7 @@ impl Form {
 pub(super) fn reachable(
     program: &Program<'_>,
     functions: &[Vec<Id>],
-    made: &HashMap<Id, Id>,
+    made: &HashMap<Id, Id, BuildQuick>,
 ) -> BTreeSet<Id> {
     let mut reached = BTreeSet::new();
     let mut stack = functions.concat();
@@ -79,7 +86,7 @@ pub(super) fn reachable(
     reached
 }
 
-fn is_leaf(program: &Program<'_>, id: Id, made: &HashMap<Id, Id>) -> bool {
+fn is_leaf(program: &Program<'_>, id: Id, made: &HashMap<Id, Id, BuildQuick>) -> bool {
     is_atom(program, id) || (made.contains_key(&id) && !program.dag[id].is_leaf())
 }
 

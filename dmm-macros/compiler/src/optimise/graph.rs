@@ -1,27 +1,26 @@
-//! The e-graph of operations: [`Math`] as lowering leaves it, with what the rules' conditions
-//! ask of a class of equal expressions.
+//! The e-graph of operations, with what the rules' conditions ask of a class of equal
+//! expressions.
 
 use egg::{Analysis, DidMerge, EGraph, Id, Language};
-use num_traits::{Signed, ToPrimitive, Zero};
 
-use super::form::is_fixed_leaf;
-use crate::algebra::{Function, Math, Rational};
-
-/// Constants with larger numerators or denominators are not folded any further: to hash a
-/// rational is Euclid's algorithm, whose time grows with the square of its length.
-const MOST_BITS: u64 = 1 << 7;
+use super::constants::Constants;
+use super::operation::{Operation, Symbol};
+use crate::algebra::Function;
 
 /// Equal operations.
-pub(super) type Graph = EGraph<Math, Facts>;
+pub(super) type Graph = EGraph<Operation, Facts>;
 
 /// The analysis: what is known of a class, from any of its expressions.
-pub(super) struct Facts;
+pub(super) struct Facts {
+    /// The constants by number.
+    pub(super) constants: Constants,
+}
 
 /// What is known of a class of equal expressions.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Known {
-    /// Its value.
-    pub(super) constant: Option<Rational>,
+    /// Its value, by number.
+    pub(super) constant: Option<u32>,
     /// It depends on parameters and constants alone, and so is computed once a flow.
     pub(super) fixed: bool,
     /// It has no rounding error: a variable, a constant, a sign or a power of two times one.
@@ -31,47 +30,29 @@ pub(super) struct Known {
     pub(super) not_negative: bool,
 }
 
-impl Analysis<Math> for Facts {
+impl Analysis<Operation> for Facts {
     type Data = Known;
 
-    fn make(graph: &mut Graph, node: &Math, _: Id) -> Known {
-        let constant = constant(graph, node);
-        let of = |id: &Id| &graph[*id].data;
-        let exact = match node {
-            Math::Constant(_) | Math::Pi | Math::Variable(_) => true,
-            Math::Neg(a) => of(a).exact,
-            Math::Mul([a, b]) => {
-                let power = of(a).constant.as_ref().is_some_and(is_power_of_two);
-                power && of(b).exact
+    fn make(graph: &mut Graph, node: &Operation, _: Id) -> Known {
+        match *node.children() {
+            [] => graph.analysis.leaf(node.symbol),
+            [a] => {
+                let a = graph[a].data;
+                graph.analysis.unary(node.symbol, &a)
             }
-            _ => false,
-        };
-        let fixed = match node {
-            Math::Variable(name) => is_fixed_leaf(name),
-            node => node.all(|child| of(&child).fixed),
-        };
-        let not_negative = match node {
-            Math::Constant(value) => !value.is_negative(),
-            Math::Mul([a, b]) => a == b || (of(a).not_negative && of(b).not_negative),
-            Math::Add([a, b]) | Math::Div([a, b]) => of(a).not_negative && of(b).not_negative,
-            Math::Call(function, _) => matches!(
-                function,
-                Function::Sqrt | Function::Exp | Function::Cosh | Function::Abs | Function::Sinhc
-            ),
-            _ => false,
-        };
-        Known {
-            not_negative: not_negative
-                || constant.as_ref().is_some_and(|value| !value.is_negative()),
-            exact: exact || constant.is_some() || fixed,
-            constant,
-            fixed,
+            [a, b, ..] => {
+                let (known_a, known_b) = (graph[a].data, graph[b].data);
+                let mut known = graph.analysis.binary(node.symbol, &known_a, &known_b);
+                // a square
+                known.not_negative |= a == b && node.symbol == Symbol::Mul;
+                known
+            }
         }
     }
 
     fn merge(&mut self, known: &mut Known, other: Known) -> DidMerge {
         let merged = Known {
-            constant: known.constant.clone().or_else(|| other.constant.clone()),
+            constant: known.constant.or(other.constant),
             fixed: known.fixed || other.fixed,
             exact: known.exact || other.exact,
             not_negative: known.not_negative || other.not_negative,
@@ -82,35 +63,65 @@ impl Analysis<Math> for Facts {
     }
 
     fn modify(graph: &mut Graph, id: Id) {
-        if let Some(value) = graph[id].data.constant.clone() {
-            let leaf = graph.add(Math::Constant(value));
+        if let Some(number) = graph[id].data.constant {
+            let leaf = graph.add(Operation::new(Symbol::Constant(number), &[]));
             graph.union(id, leaf);
         }
     }
 }
 
-/// The exact value of a node that is made of constants; nothing where it is too long, or
-/// there is none.
-fn constant(graph: &Graph, node: &Math) -> Option<Rational> {
-    let of = |id: &Id| graph[*id].data.constant.as_ref();
-    let value = match node {
-        Math::Constant(value) => return Some(value.clone()),
-        Math::Add([a, b]) => of(a)? + of(b)?,
-        Math::Sub([a, b]) => of(a)? - of(b)?,
-        Math::Mul([a, b]) => of(a)? * of(b)?,
-        Math::Neg(a) => -of(a)?,
-        Math::Div([a, b]) => {
-            let (a, b) = (of(a)?, of(b)?);
-            (!b.is_zero()).then(|| a / b)?
+impl Facts {
+    fn leaf(&self, symbol: Symbol) -> Known {
+        let constant = match symbol {
+            Symbol::Constant(number) => Some(number),
+            _ => None,
+        };
+        Known {
+            constant,
+            fixed: !matches!(symbol, Symbol::Varying(_)),
+            exact: true,
+            not_negative: constant.is_some_and(|number| !self.constants.is_negative(number)),
         }
-        _ => return None,
-    };
-    (value.numer().bits() < MOST_BITS && value.denom().bits() < MOST_BITS).then_some(value)
-}
+    }
 
-/// Whether a factor `value` is exact.
-fn is_power_of_two(value: &Rational) -> bool {
-    let is_power =
-        |value: &num_bigint::BigInt| value.abs().to_u64().is_some_and(u64::is_power_of_two);
-    is_power(value.numer()) && is_power(value.denom())
+    fn unary(&mut self, symbol: Symbol, a: &Known) -> Known {
+        let constant = a
+            .constant
+            .and_then(|number| self.constants.fold(symbol, number, number));
+        let exact = symbol == Symbol::Neg && a.exact;
+        let not_negative = matches!(
+            symbol,
+            Symbol::Call(
+                Function::Sqrt | Function::Exp | Function::Cosh | Function::Abs | Function::Sinhc
+            )
+        );
+        self.of(constant, a.fixed, exact, not_negative)
+    }
+
+    fn binary(&mut self, symbol: Symbol, a: &Known, b: &Known) -> Known {
+        let constant = match (a.constant, b.constant) {
+            (Some(a), Some(b)) => self.constants.fold(symbol, a, b),
+            _ => None,
+        };
+        let scales = |factor: &Known| {
+            factor
+                .constant
+                .is_some_and(|number| self.constants.is_power_of_two(number))
+        };
+        let exact = symbol == Symbol::Mul && (scales(a) && b.exact || scales(b) && a.exact);
+        let not_negative = matches!(symbol, Symbol::Add | Symbol::Mul | Symbol::Div)
+            && a.not_negative
+            && b.not_negative;
+        self.of(constant, a.fixed && b.fixed, exact, not_negative)
+    }
+
+    fn of(&self, constant: Option<u32>, fixed: bool, exact: bool, not_negative: bool) -> Known {
+        Known {
+            constant,
+            fixed,
+            exact: exact || fixed || constant.is_some(),
+            not_negative: not_negative
+                || constant.is_some_and(|number| !self.constants.is_negative(number)),
+        }
+    }
 }

@@ -8,12 +8,16 @@
 //! same code on every machine.
 
 mod cluster;
+mod constants;
 mod cost;
 mod extract;
 mod form;
 mod graph;
+mod operation;
+mod pattern;
 mod rules;
 mod saturate;
+mod snapshot;
 mod table;
 
 #[cfg(test)]
@@ -23,12 +27,14 @@ use std::collections::HashMap;
 
 use egg::{Id, Language};
 
+use constants::Constants;
 use extract::{Selection, cheapest};
-use form::Form;
+use form::{Form, Results};
+use operation::{Operation, Symbol};
 use saturate::Saturation;
-use table::{Class, Table};
+use table::{Class, Node, Table};
 
-use crate::algebra::{Dag, Math, Name};
+use crate::algebra::{BuildQuick, Dag, Math};
 pub use cost::Count;
 
 /// Functions to be optimised: lists of roots in one DAG of lowered operations.
@@ -46,7 +52,8 @@ pub struct Program<'a> {
 /// Optimises programs, and remembers them.
 #[derive(Default)]
 pub struct Optimiser {
-    known: HashMap<Form, Solution>,
+    /// By the operations of a form: what is equal to them, and what was chosen of that.
+    known: HashMap<Vec<Operation>, Vec<Saturated>>,
 }
 
 impl Optimiser {
@@ -57,7 +64,7 @@ impl Optimiser {
         program: &Program<'_>,
         insert: &mut dyn FnMut(Math) -> Id,
     ) -> Vec<Vec<Id>> {
-        let mut made = HashMap::new();
+        let mut made = HashMap::default();
         if program.size() <= cluster::LARGEST_WHOLE {
             return self.solve(program, &program.functions, true, &mut made, insert);
         }
@@ -85,17 +92,21 @@ impl Optimiser {
         program: &Program<'_>,
         functions: &[Vec<Id>],
         whole: bool,
-        made: &mut HashMap<Id, Id>,
+        made: &mut HashMap<Id, Id, BuildQuick>,
         insert: &mut dyn FnMut(Math) -> Id,
     ) -> Vec<Vec<Id>> {
-        let (form, leaves) = Form::new(program, functions, made);
-        let solution = match self.known.get(&form) {
-            Some(solution) => solution,
+        let (form, results, leaves) = Form::new(program, functions, made);
+        let alike = self.known.entry(form.nodes.clone()).or_default();
+        // forms differ in their constants
+        let index = match alike.iter().position(|known| known.is_of(&form, whole)) {
+            Some(index) => index,
             None => {
-                let solution = Solution::new(&form, whole);
-                self.known.entry(form).or_insert(solution)
+                alike.push(Saturated::new(form, whole));
+                alike.len() - 1
             }
         };
+        let saturated = &mut alike[index];
+        let solution = saturated.solution(results);
         solution.write(program, &leaves, made, insert)
     }
 }
@@ -103,37 +114,89 @@ impl Optimiser {
 impl Program<'_> {
     /// The number of operations.
     fn size(&self) -> usize {
-        form::reachable(self, &self.functions, &HashMap::new()).len()
+        form::reachable(self, &self.functions, &HashMap::default()).len()
+    }
+}
+
+/// A form with what is equal to it.
+struct Saturated {
+    form: Form,
+    whole: bool,
+    table: Table,
+    /// By node of the form: its class.
+    classes: Vec<Class>,
+    /// By class: the first node of the form in it.
+    first: Vec<Node>,
+    constants: Constants,
+    /// The choices by the results they are made for.
+    solutions: Vec<(Results, Solution)>,
+}
+
+impl Saturated {
+    fn new(form: Form, whole: bool) -> Self {
+        let saturation = Saturation::new(&form, whole);
+        let table = Table::new(&saturation.graph);
+        let classes = saturation.image.iter();
+        Self {
+            classes: classes
+                .map(|&id| table.class(&saturation.graph, id))
+                .collect(),
+            first: saturation.first(&form, &table),
+            form,
+            whole,
+            table,
+            constants: saturation.graph.analysis.constants,
+            solutions: Vec::new(),
+        }
+    }
+
+    fn is_of(&self, form: &Form, whole: bool) -> bool {
+        self.whole == whole && self.form == *form
+    }
+
+    /// The cheapest operations found for the `results` of functions.
+    fn solution(&mut self, results: Results) -> &Solution {
+        let known = self
+            .solutions
+            .iter()
+            .position(|(known, _)| *known == results);
+        let index = known.unwrap_or_else(|| {
+            let solution = Solution::new(self, &results);
+            self.solutions.push((results, solution));
+            self.solutions.len() - 1
+        });
+        &self.solutions[index].1
     }
 }
 
 /// An optimised form.
 struct Solution {
     /// The operations, children first.
-    nodes: Vec<Math>,
+    nodes: Vec<Operation>,
+    /// The constants in them.
+    constants: Constants,
     /// The results of every function.
-    functions: Vec<Vec<Id>>,
+    functions: Results,
 }
 
 impl Solution {
-    fn new(form: &Form, whole: bool) -> Self {
-        let saturation = Saturation::new(form, whole);
-        let table = Table::new(&saturation.graph);
-        let first = saturation.first(form, &table);
+    fn new(of: &Saturated, results: &Results) -> Self {
         let mut solution = Self {
             nodes: Vec::new(),
+            constants: of.constants.clone(),
             functions: Vec::new(),
         };
-        for roots in &form.functions {
-            let classes: Vec<Class> = roots
-                .iter()
-                .map(|&root| table.class(&saturation.graph, saturation.image[usize::from(root)]))
-                .collect();
-            let selection = cheapest(&table, &classes, &first);
-            let mut values = HashMap::new();
+        let class = |root: &Id| of.classes[usize::from(*root)];
+        let functions: Vec<Vec<Class>> = results
+            .iter()
+            .map(|roots| roots.iter().map(class).collect())
+            .collect();
+        let selections = cheapest(&of.table, &functions, &of.first);
+        for (classes, selection) in functions.into_iter().zip(&selections) {
+            let mut values = HashMap::default();
             let images = classes
-                .iter()
-                .map(|&class| solution.add(&selection, class, &mut values))
+                .into_iter()
+                .map(|class| solution.add(selection, class, &mut values))
                 .collect();
             solution.functions.push(images);
         }
@@ -145,22 +208,17 @@ impl Solution {
         &mut self,
         selection: &Selection<'_>,
         class: Class,
-        values: &mut HashMap<Class, Id>,
+        values: &mut HashMap<Class, Id, BuildQuick>,
     ) -> Id {
         if let Some(&value) = values.get(&class) {
             return value;
         }
         let (node, operands) = selection.operation(class);
         let operands: Vec<Id> = operands
-            .iter()
-            .map(|&operand| self.add(selection, operand, values))
+            .map(|operand| self.add(selection, operand, values))
             .collect();
-        let mut operands = operands.into_iter();
-        let node = node
-            .clone()
-            .map_children(|operand| operands.next().unwrap_or(operand));
         let value = Id::from(self.nodes.len());
-        self.nodes.push(node);
+        self.nodes.push(Operation::new(node.symbol, &operands));
         values.insert(class, value);
         value
     }
@@ -169,19 +227,27 @@ impl Solution {
     fn write(
         &self,
         program: &Program<'_>,
-        leaves: &HashMap<Name, Id>,
-        copies: &mut HashMap<Id, Id>,
+        leaves: &[Id],
+        copies: &mut HashMap<Id, Id, BuildQuick>,
         insert: &mut dyn FnMut(Math) -> Id,
     ) -> Vec<Vec<Id>> {
         let mut made: Vec<Id> = Vec::with_capacity(self.nodes.len());
-        for node in &self.nodes {
-            let leaf = match node {
-                Math::Variable(name) => leaves.get(name),
-                _ => None,
-            };
-            made.push(match leaf {
-                Some(&leaf) => copy(program.dag, leaf, copies, insert),
-                None => insert(node.clone().map_children(|child| made[usize::from(child)])),
+        for operation in &self.nodes {
+            let mut operands: Vec<Id> = operation.children().to_vec();
+            if operation.symbol.is_commutative() {
+                self.arrange(operation.symbol, &mut operands);
+            }
+            for operand in &mut operands {
+                *operand = made[usize::from(*operand)];
+            }
+            made.push(match operation.symbol {
+                Symbol::Fixed(leaf) | Symbol::Varying(leaf) => {
+                    copy(program.dag, leaves[leaf as usize], copies, insert)
+                }
+                symbol => match symbol.node(&operands, &self.constants) {
+                    Some(node) => insert(node),
+                    None => unreachable!("an operation has its operands"),
+                },
             });
         }
         self.functions
@@ -189,13 +255,26 @@ impl Solution {
             .map(|roots| roots.iter().map(|&root| made[usize::from(root)]).collect())
             .collect()
     }
+
+    /// The operands of a sum or product in the order in which one writes them: a constant is
+    /// the first factor, and the last term.
+    fn arrange(&self, symbol: Symbol, operands: &mut [Id]) {
+        let is_constant =
+            |id: Id| matches!(self.nodes[usize::from(id)].symbol, Symbol::Constant(_));
+        if let [a, b] = operands
+            && is_constant(*a) != is_constant(*b)
+            && is_constant(*a) == (symbol == Symbol::Add)
+        {
+            operands.swap(0, 1);
+        }
+    }
 }
 
 /// Inserts `root` of `dag` as it is.
 fn copy(
     dag: &Dag,
     root: Id,
-    copies: &mut HashMap<Id, Id>,
+    copies: &mut HashMap<Id, Id, BuildQuick>,
     insert: &mut dyn FnMut(Math) -> Id,
 ) -> Id {
     if let Some(&copy) = copies.get(&root) {

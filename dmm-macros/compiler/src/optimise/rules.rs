@@ -5,17 +5,64 @@
 //! cancelled (a·b/b has another domain than a), and no function is expanded (sinc u is not
 //! sin u/u). A difference of two exact numbers, such as x₁ − x₀, loses nothing to rounding
 //! where they are close: no rule takes it apart.
+//!
+//! Sums and products have no order: a rule holds for its patterns with the operands of either
+//! exchanged.
 
 use std::sync::LazyLock;
 
-use egg::{Id, Rewrite, Subst, Var, rewrite};
-use num_traits::One;
+use egg::{Pattern, PatternAst};
 
-use super::graph::{Facts, Graph};
+use super::constants::ONE;
+use super::operation::Symbol;
+use super::pattern::{Match, Search, Steps};
+use super::snapshot::Snapshot;
 use crate::algebra::Math;
 
-/// A rewrite rule.
-pub(super) type Rule = Rewrite<Math, Facts>;
+/// A rule: what a pattern matches is equal to the other side, on a condition.
+pub(super) struct Rule {
+    /// What it is called.
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "tests name the rule that fails")
+    )]
+    pub(super) name: &'static str,
+    /// Both sides as they are written.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests evaluate both sides"))]
+    pub(super) sides: [PatternAst<Math>; 2],
+    /// Finds the left side.
+    pub(super) search: Search,
+    /// Makes the right side.
+    pub(super) steps: Steps,
+    /// What has to be known of what was found.
+    pub(super) condition: Condition,
+}
+
+/// What has to be known of the classes that variables stand for.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Condition {
+    Always,
+    /// The whole depends on more than parameters; what does not is computed once a flow, in
+    /// whatever form.
+    Varies,
+    /// a − b is not a difference of exact numbers.
+    Loose(usize, usize),
+    /// a + b is not such a difference, by the sign of one of them.
+    NoDifference(usize, usize),
+    /// a is a number.
+    Constant(usize),
+    /// a/b is worth a reciprocal: a is not 1, and b is not a number, whose reciprocal would be
+    /// rounded.
+    Varying(usize, usize),
+    /// a is not negative.
+    NotNegative(usize),
+}
+use Condition::*;
+
+// pattern variables
+const A: usize = 0;
+const B: usize = 1;
+const C: usize = 2;
 
 /// Every rule, compiled once.
 pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(rules);
@@ -23,89 +70,70 @@ pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(rules);
 #[rustfmt::skip]
 fn rules() -> Vec<Rule> {
     vec![
-        rewrite!("commute-sum";            "(+ ?a ?b)"             => "(+ ?b ?a)" if varies),
-        rewrite!("commute-product";        "(* ?a ?b)"             => "(* ?b ?a)" if varies),
-        rewrite!("associate-sum";          "(+ (+ ?a ?b) ?c)"      => "(+ ?a (+ ?b ?c))" if is_no_difference("?a", "?b")),
-        rewrite!("associate-product";      "(* (* ?a ?b) ?c)"      => "(* ?a (* ?b ?c))" if varies),
-        rewrite!("add-difference";         "(+ ?a (- ?b ?c))"      => "(- (+ ?a ?b) ?c)" if is_loose("?b", "?c")),
-        rewrite!("subtract-from-sum";      "(- (+ ?a ?b) ?c)"      => "(+ ?a (- ?b ?c))" if is_no_difference("?a", "?b")),
-        rewrite!("subtract-from-difference"; "(- (- ?a ?b) ?c)"    => "(- ?a (+ ?b ?c))" if is_loose("?a", "?b")),
-        rewrite!("subtract-sum";           "(- ?a (+ ?b ?c))"      => "(- (- ?a ?b) ?c)" if is_no_difference("?b", "?c")),
-        rewrite!("subtract-difference";    "(- ?a (- ?b ?c))"      => "(- (+ ?a ?c) ?b)" if is_loose("?b", "?c")),
-        rewrite!("negate-difference";      "(neg (- ?a ?b))"       => "(- ?b ?a)"),
-        rewrite!("negate-sum";             "(neg (+ ?a ?b))"       => "(- (neg ?a) ?b)"),
-        rewrite!("add-negative";           "(+ ?a (neg ?b))"       => "(- ?a ?b)"),
-        rewrite!("subtract-negative";      "(- ?a (neg ?b))"       => "(+ ?a ?b)"),
-        rewrite!("subtract-from-negative"; "(- (neg ?a) ?b)"       => "(neg (+ ?a ?b))"),
-        rewrite!("negate-twice";           "(neg (neg ?a))"        => "?a"),
-        rewrite!("negate-factor";          "(* (neg ?a) ?b)"       => "(neg (* ?a ?b))"),
-        rewrite!("negate-product";         "(neg (* ?a ?b))"       => "(* (neg ?a) ?b)"),
-        rewrite!("negate-numerator";       "(/ (neg ?a) ?b)"       => "(neg (/ ?a ?b))"),
-        rewrite!("negate-denominator";     "(/ ?a (neg ?b))"       => "(neg (/ ?a ?b))"),
-        rewrite!("factor-sum";             "(+ (* ?a ?b) (* ?a ?c))" => "(* ?a (+ ?b ?c))"),
-        rewrite!("factor-difference";      "(- (* ?a ?b) (* ?a ?c))" => "(* ?a (- ?b ?c))"),
-        rewrite!("collect";                "(+ ?a (* ?c ?a))"      => "(* (+ ?c 1) ?a)" if is_constant("?c")),
-        rewrite!("double";                 "(+ ?a ?a)"             => "(* 2 ?a)"),
-        rewrite!("halve";                  "(* 2 ?a)"              => "(+ ?a ?a)"),
-        rewrite!("quarter";                "(* 1/4 (* ?a ?b))"     => "(* (* 1/2 ?a) (* 1/2 ?b))"),
-        rewrite!("multiply-quotient";      "(* ?a (/ ?b ?c))"      => "(/ (* ?a ?b) ?c)"),
-        rewrite!("divide-product";         "(/ (* ?a ?b) ?c)"      => "(* ?a (/ ?b ?c))"),
-        rewrite!("divide-quotient";        "(/ (/ ?a ?b) ?c)"      => "(/ ?a (* ?b ?c))"),
-        rewrite!("divide-by-product";      "(/ ?a (* ?b ?c))"      => "(/ (/ ?a ?b) ?c)"),
-        rewrite!("divide-by-quotient";     "(/ ?a (/ ?b ?c))"      => "(/ (* ?a ?c) ?b)"),
-        rewrite!("add-quotients";          "(+ (/ ?a ?c) (/ ?b ?c))" => "(/ (+ ?a ?b) ?c)"),
-        rewrite!("subtract-quotients";     "(- (/ ?a ?c) (/ ?b ?c))" => "(/ (- ?a ?b) ?c)"),
-        rewrite!("reciprocal";             "(/ ?a ?b)"             => "(* ?a (/ 1 ?b))" if is_varying("?a", "?b")),
-        rewrite!("square-root";            "(* (sqrt ?a) (sqrt ?a))" => "?a" if is_not_negative("?a")),
-        rewrite!("one-times";              "(* 1 ?a)"              => "?a"),
-        rewrite!("over-one";               "(/ ?a 1)"              => "?a"),
+        rule("associate-sum",             "(+ (+ ?a ?b) ?c)",          "(+ ?a (+ ?b ?c))",              NoDifference(A, B)),
+        rule("associate-product",         "(* (* ?a ?b) ?c)",          "(* ?a (* ?b ?c))",              Varies),
+        rule("add-difference",            "(+ ?a (- ?b ?c))",          "(- (+ ?a ?b) ?c)",              Loose(B, C)),
+        rule("subtract-from-sum",         "(- (+ ?a ?b) ?c)",          "(+ ?a (- ?b ?c))",              NoDifference(A, B)),
+        rule("subtract-from-difference",  "(- (- ?a ?b) ?c)",          "(- ?a (+ ?b ?c))",              Loose(A, B)),
+        rule("subtract-sum",              "(- ?a (+ ?b ?c))",          "(- (- ?a ?b) ?c)",              NoDifference(B, C)),
+        rule("subtract-difference",       "(- ?a (- ?b ?c))",          "(- (+ ?a ?c) ?b)",              Loose(B, C)),
+        rule("negate-difference",         "(neg (- ?a ?b))",           "(- ?b ?a)",                     Always),
+        rule("negate-sum",                "(neg (+ ?a ?b))",           "(- (neg ?a) ?b)",               Always),
+        rule("add-negative",              "(+ ?a (neg ?b))",           "(- ?a ?b)",                     Always),
+        rule("subtract-negative",         "(- ?a (neg ?b))",           "(+ ?a ?b)",                     Always),
+        rule("subtract-from-negative",    "(- (neg ?a) ?b)",           "(neg (+ ?a ?b))",               Always),
+        rule("negate-twice",              "(neg (neg ?a))",            "?a",                            Always),
+        rule("negate-factor",             "(* (neg ?a) ?b)",           "(neg (* ?a ?b))",               Always),
+        rule("negate-product",            "(neg (* ?a ?b))",           "(* (neg ?a) ?b)",               Always),
+        rule("negate-numerator",          "(/ (neg ?a) ?b)",           "(neg (/ ?a ?b))",               Always),
+        rule("negate-denominator",        "(/ ?a (neg ?b))",           "(neg (/ ?a ?b))",               Always),
+        rule("factor-sum",                "(+ (* ?a ?b) (* ?a ?c))",   "(* ?a (+ ?b ?c))",              Always),
+        rule("factor-difference",         "(- (* ?a ?b) (* ?a ?c))",   "(* ?a (- ?b ?c))",              Always),
+        rule("collect",                   "(+ ?a (* ?c ?a))",          "(* (+ ?c 1) ?a)",               Constant(C)),
+        rule("double",                    "(+ ?a ?a)",                 "(* 2 ?a)",                      Always),
+        rule("halve",                     "(* 2 ?a)",                  "(+ ?a ?a)",                     Always),
+        rule("quarter",                   "(* 1/4 (* ?a ?b))",         "(* (* 1/2 ?a) (* 1/2 ?b))",     Always),
+        rule("multiply-quotient",         "(* ?a (/ ?b ?c))",          "(/ (* ?a ?b) ?c)",              Always),
+        rule("divide-product",            "(/ (* ?a ?b) ?c)",          "(* ?a (/ ?b ?c))",              Always),
+        rule("divide-quotient",           "(/ (/ ?a ?b) ?c)",          "(/ ?a (* ?b ?c))",              Always),
+        rule("divide-by-product",         "(/ ?a (* ?b ?c))",          "(/ (/ ?a ?b) ?c)",              Always),
+        rule("divide-by-quotient",        "(/ ?a (/ ?b ?c))",          "(/ (* ?a ?c) ?b)",              Always),
+        rule("add-quotients",             "(+ (/ ?a ?c) (/ ?b ?c))",   "(/ (+ ?a ?b) ?c)",              Always),
+        rule("subtract-quotients",        "(- (/ ?a ?c) (/ ?b ?c))",   "(/ (- ?a ?b) ?c)",              Always),
+        rule("reciprocal",                "(/ ?a ?b)",                 "(* ?a (/ 1 ?b))",               Varying(A, B)),
+        rule("square-root",               "(* (sqrt ?a) (sqrt ?a))",   "?a",                            NotNegative(A)),
+        rule("one-times",                 "(* 1 ?a)",                  "?a",                            Always),
+        rule("over-one",                  "(/ ?a 1)",                  "?a",                            Always),
     ]
 }
 
-fn var(name: &str) -> Var {
-    name.parse().expect("a pattern variable")
-}
-
-/// Whether an expression depends on more than parameters; what does not is computed once a
-/// flow, in whatever form.
-fn varies(graph: &mut Graph, class: Id, _: &Subst) -> bool {
-    !graph[class].data.fixed
-}
-
-/// Whether a − b is not a difference of exact numbers.
-fn is_loose(a: &str, b: &str) -> impl Fn(&mut Graph, Id, &Subst) -> bool + use<> {
-    let (a, b) = (var(a), var(b));
-    move |graph, _, subst| !(graph[subst[a]].data.exact && graph[subst[b]].data.exact)
-}
-
-/// Whether a + b is not such a difference, by the sign of one of them.
-fn is_no_difference(a: &str, b: &str) -> impl Fn(&mut Graph, Id, &Subst) -> bool + use<> {
-    let (a, b) = (var(a), var(b));
-    move |graph, _, subst| {
-        let (a, b) = (&graph[subst[a]], &graph[subst[b]]);
-        let negative =
-            |class: &egg::EClass<Math, _>| class.iter().any(|node| matches!(node, Math::Neg(_)));
-        !(a.data.exact && b.data.exact && (negative(a) || negative(b)))
+fn rule(name: &'static str, left: &'static str, right: &'static str, condition: Condition) -> Rule {
+    let [left, right] = [left, right].map(|side| {
+        let pattern: Pattern<Math> = side.parse().expect("a pattern");
+        pattern.ast
+    });
+    Rule {
+        name,
+        search: Search::new(&left),
+        steps: Steps::new(&right),
+        condition,
+        sides: [left, right],
     }
 }
 
-fn is_constant(a: &str) -> impl Fn(&mut Graph, Id, &Subst) -> bool + use<> {
-    let a = var(a);
-    move |graph, _, subst| graph[subst[a]].data.constant.is_some()
-}
-
-/// Whether a/b is worth a reciprocal: a is not 1, and b is not a constant, whose reciprocal
-/// would be rounded.
-fn is_varying(a: &str, b: &str) -> impl Fn(&mut Graph, Id, &Subst) -> bool + use<> {
-    let (a, b) = (var(a), var(b));
-    move |graph, _, subst| {
-        let is_one = |value: &crate::algebra::Rational| value.is_one();
-        !graph[subst[a]].data.constant.as_ref().is_some_and(is_one)
-            && graph[subst[b]].data.constant.is_none()
+impl Condition {
+    /// Whether it holds for a match.
+    pub(super) fn holds(self, classes: &Snapshot, found: &Match) -> bool {
+        let of = |variable: usize| classes.known(found.variables[variable]);
+        let negative = |variable: usize| classes.has(found.variables[variable], Symbol::Neg);
+        match self {
+            Always => true,
+            Varies => !classes.known(found.class).fixed,
+            Loose(a, b) => !(of(a).exact && of(b).exact),
+            NoDifference(a, b) => !(of(a).exact && of(b).exact && (negative(a) || negative(b))),
+            Constant(a) => of(a).constant.is_some(),
+            Varying(a, b) => of(a).constant != Some(ONE) && of(b).constant.is_none(),
+            NotNegative(a) => of(a).not_negative,
+        }
     }
-}
-
-fn is_not_negative(a: &str) -> impl Fn(&mut Graph, Id, &Subst) -> bool + use<> {
-    let a = var(a);
-    move |graph, _, subst| graph[subst[a]].data.not_negative
 }

@@ -1,30 +1,30 @@
 //! Form → equal expressions of it, by equality saturation.
 
 use std::ops::RangeInclusive;
-use std::time::Duration;
 
-use egg::{Id, Language, Runner};
+use egg::{Id, Language};
 
 use super::extract::NOTHING;
 use super::form::Form;
 use super::graph::{Facts, Graph};
+use super::pattern::Match;
 use super::rules::RULES;
+use super::snapshot::Snapshot;
 use super::table::{Node, Table};
-use crate::algebra::Math;
 
 /// Iterations of saturation.
 const MOST_ITERATIONS: usize = 9;
 
-/// Saturation ends at this multiple of the form's nodes. Unoptimised, as users' macros run,
-/// 1000 nodes take some 25 ms. Five times as many make the Kepler problem's f^τ and Jacobian
-/// 5 % cheaper; going sideways in the hill-climb makes them 7 % cheaper.
-const GROWTH: usize = 7;
+/// Saturation ends with the rule that gives it more than this multiple of the form's nodes.
+/// Unoptimised, as users' macros run, 1000 nodes take some 15 ms, and as much again to choose
+/// from. Twice as many make the problems' f^τ and Jacobians less than 1 % cheaper.
+const GROWTH: usize = 5;
 
 /// As [`GROWTH`], for a cluster of a large program: many of them have to be optimised.
-const CLUSTER_GROWTH: usize = 4;
+const CLUSTER_GROWTH: usize = 3;
 
 /// The limits of nodes of a whole program, whatever its size.
-const WHOLE: RangeInclusive<usize> = 800..=1_800;
+const WHOLE: RangeInclusive<usize> = 800..=1_100;
 
 /// A saturated e-graph with the nodes of the form that it was made from.
 pub(super) struct Saturation {
@@ -42,23 +42,25 @@ impl Saturation {
             true => (GROWTH * size).clamp(*WHOLE.start(), *WHOLE.end()),
             false => CLUSTER_GROWTH * size,
         };
-        let mut graph = Graph::new(Facts);
+        let mut graph = Graph::new(Facts {
+            constants: form.constants.clone(),
+        });
         let mut image: Vec<Id> = Vec::with_capacity(form.nodes.len());
         for node in &form.nodes {
-            let node = node.clone().map_children(|child| image[usize::from(child)]);
+            let node = node.map_children(|child| image[usize::from(child)]);
             image.push(graph.add(node));
         }
         graph.rebuild();
-        let runner: Runner<Math, Facts> = Runner::new(Facts)
-            .with_egraph(graph)
-            .with_iter_limit(MOST_ITERATIONS)
-            .with_node_limit(most_nodes)
-            .with_time_limit(Duration::MAX)
-            .run(RULES.iter());
-        Self {
-            graph: runner.egraph,
-            image,
+        let mut matches: Vec<Vec<Match>> = RULES.iter().map(|_| Vec::new()).collect();
+        for _ in 0..MOST_ITERATIONS {
+            search(&Snapshot::new(&graph), &mut matches);
+            let changed = apply(&mut graph, &mut matches, most_nodes);
+            graph.rebuild();
+            if !changed || graph.total_size() > most_nodes {
+                break;
+            }
         }
+        Self { graph, image }
     }
 
     /// By class: the first of the form's nodes in it. Its operands come before it, so that no
@@ -68,12 +70,43 @@ impl Saturation {
         for (node, &image) in form.nodes.iter().zip(&self.image) {
             let class = table.class(&self.graph, image);
             if first[class] == NOTHING {
-                let node = node
-                    .clone()
-                    .map_children(|child| self.image[usize::from(child)]);
+                let node = node.map_children(|child| self.image[usize::from(child)]);
                 first[class] = table.find(&self.graph, class, &node).unwrap_or(NOTHING);
             }
         }
         first
     }
+}
+
+/// What every rule matches.
+fn search(classes: &Snapshot, matches: &mut [Vec<Match>]) {
+    for &class in &classes.ids {
+        for operation in classes.operations(class) {
+            for (rule, found) in RULES.iter().zip(matches.iter_mut()) {
+                if rule.search.symbol == operation.symbol {
+                    rule.search.find(classes, class, operation, found);
+                }
+            }
+        }
+    }
+    for (rule, found) in RULES.iter().zip(matches.iter_mut()) {
+        found.retain(|found| rule.condition.holds(classes, found));
+    }
+}
+
+/// Adds the other side of every match, rule by rule until there are too many nodes; whether
+/// anything was new.
+fn apply(graph: &mut Graph, matches: &mut [Vec<Match>], most_nodes: usize) -> bool {
+    let before = graph.total_size();
+    let mut changed = false;
+    for (rule, found) in RULES.iter().zip(matches) {
+        if graph.total_size() > most_nodes {
+            found.clear();
+        }
+        for found in found.drain(..) {
+            let equal = rule.steps.add(graph, &found.variables);
+            changed |= graph.union(found.class, equal);
+        }
+    }
+    changed || graph.total_size() > before
 }

@@ -7,7 +7,8 @@ use egg::{Id, Language};
 
 use super::cost::{STORED, UNIT, weight};
 use super::graph::Graph;
-use crate::algebra::Math;
+use super::operation::{Operation, Symbol};
+use crate::algebra::BuildQuick;
 
 /// A class, by its number in the table.
 pub(super) type Class = usize;
@@ -18,9 +19,9 @@ pub(super) type Node = usize;
 /// Classes of equal expressions and the nodes to choose from.
 pub(super) struct Table {
     /// The nodes.
-    pub(super) nodes: Vec<Math>,
-    /// By node: the classes of its operands.
-    pub(super) children: Vec<Vec<Class>>,
+    pub(super) nodes: Vec<Operation>,
+    /// By node: the classes of its operands, each once.
+    pub(super) operands: Vec<Operands>,
     /// By node: the cost of the operation alone.
     pub(super) costs: Vec<u32>,
     /// By class: its nodes.
@@ -28,7 +29,21 @@ pub(super) struct Table {
     /// By class: the nodes that have it as an operand, each with its own class.
     pub(super) parents: Vec<Vec<(Node, Class)>>,
     /// The numbers of the e-graph's classes.
-    numbers: HashMap<Id, Class>,
+    numbers: HashMap<Id, Class, BuildQuick>,
+}
+
+/// At most two classes.
+#[derive(Clone, Copy)]
+pub(super) struct Operands {
+    classes: [Class; 2],
+    count: usize,
+}
+
+impl Operands {
+    /// The classes.
+    pub(super) fn all(&self) -> &[Class] {
+        &self.classes[..self.count]
+    }
 }
 
 impl Table {
@@ -36,10 +51,10 @@ impl Table {
     pub(super) fn new(graph: &Graph) -> Self {
         let mut ids: Vec<Id> = graph.classes().map(|class| class.id).collect();
         ids.sort_unstable();
-        let numbers: HashMap<Id, Class> = ids.iter().copied().zip(0..).collect();
+        let numbers: HashMap<Id, Class, BuildQuick> = ids.iter().copied().zip(0..).collect();
         let mut table = Self {
             nodes: Vec::new(),
-            children: Vec::new(),
+            operands: Vec::new(),
             costs: Vec::new(),
             classes: Vec::with_capacity(ids.len()),
             parents: vec![Vec::new(); ids.len()],
@@ -47,7 +62,7 @@ impl Table {
         };
         for (class, &id) in ids.iter().enumerate() {
             let first = table.nodes.len();
-            for node in graph[id].iter() {
+            for node in &graph[id].nodes {
                 table.push(class, node, graph[id].data.fixed);
             }
             table.classes.push(first..table.nodes.len());
@@ -55,30 +70,34 @@ impl Table {
         table
     }
 
-    fn push(&mut self, class: Class, node: &Math, fixed: bool) {
-        let children: Vec<Class> = node
-            .children()
-            .iter()
-            .map(|child| self.numbers[child])
-            .collect();
-        if children.contains(&class) {
-            return;
+    fn push(&mut self, class: Class, node: &Operation, fixed: bool) {
+        let mut operands = Operands {
+            classes: [0; 2],
+            count: 0,
+        };
+        for child in node.children() {
+            let child = self.numbers[child];
+            if child == class {
+                return;
+            }
+            if !operands.all().contains(&child) {
+                operands.classes[operands.count] = child;
+                operands.count += 1;
+            }
         }
         let number = self.nodes.len();
-        let mut distinct = children.clone();
-        distinct.dedup();
-        for child in distinct {
+        for &child in operands.all() {
             self.parents[child].push((number, class));
         }
         // the cost of computing something once a flow is a small part of what it would be
-        let divisor = if fixed && !matches!(node, Math::Neg(_)) {
+        let divisor = if fixed && node.symbol != Symbol::Neg {
             UNIT / STORED
         } else {
             1
         };
-        self.costs.push(weight(node) / divisor);
-        self.children.push(children);
-        self.nodes.push(node.clone());
+        self.costs.push(weight(node.symbol) / divisor);
+        self.operands.push(operands);
+        self.nodes.push(*node);
     }
 
     /// The number of the class of `id`.
@@ -86,9 +105,15 @@ impl Table {
         self.numbers[&graph.find(id)]
     }
 
+    /// By operand of a node: its class, those that are there twice included.
+    pub(super) fn children(&self, node: Node) -> impl Iterator<Item = Class> {
+        let children = self.nodes[node].children().iter();
+        children.map(|child| self.numbers[child])
+    }
+
     /// The number of `node` in its class, where it is there.
-    pub(super) fn find(&self, graph: &Graph, class: Class, node: &Math) -> Option<Node> {
-        let canonical = node.clone().map_children(|child| graph.find(child));
+    pub(super) fn find(&self, graph: &Graph, class: Class, node: &Operation) -> Option<Node> {
+        let canonical = node.map_children(|child| graph.find(child));
         self.classes[class]
             .clone()
             .find(|&node| self.nodes[node] == canonical)

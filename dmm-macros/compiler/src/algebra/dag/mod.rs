@@ -11,13 +11,17 @@ use egg::Id;
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive, Zero};
 
+use super::hasher::BuildQuick;
 use super::language::{Math, Name, Rational};
+use super::work::Work;
 
 /// A hash-consed expression DAG. Children always have smaller identifiers than parents.
 #[derive(Clone, Debug, Default)]
 pub struct Dag {
     nodes: Vec<Math>,
-    memo: HashMap<Math, Id>,
+    memo: HashMap<Math, Id, BuildQuick>,
+    /// What normal forms over this DAG may still take.
+    pub(super) work: Work,
 }
 
 impl Index<Id> for Dag {

@@ -13,7 +13,7 @@ use crate::algebra::{Function, Id, Name, PairFunction, Rational};
 pub struct FormulaId(u32);
 
 /// A formula on formulas of the same arena.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Formula {
     /// An exact constant.
     Constant(Rational),
@@ -60,7 +60,7 @@ pub struct Term {
 }
 
 /// ± constant · numerator / denominator
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Product {
     /// The sign.
     pub negative: bool,

@@ -13,6 +13,7 @@
 mod build;
 mod collect;
 pub mod formula;
+mod hash;
 pub mod latex;
 pub mod patterns;
 pub mod shared;

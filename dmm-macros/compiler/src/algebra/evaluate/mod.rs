@@ -54,12 +54,29 @@ impl Bounded {
         error: f64::NAN,
     };
 
-    /// `value`, rounded, after an error `inherited` of the arguments.
+    /// `value`, rounded, after an error `inherited` of the arguments. What is too small for a
+    /// normal number has lost digits.
     fn rounded(value: f64, inherited: f64) -> Self {
+        let lost = if value.is_subnormal() {
+            f64::MIN_POSITIVE
+        } else {
+            0.0
+        };
         Self {
             value,
-            error: inherited + f64::EPSILON * value.abs(),
+            error: inherited + f64::EPSILON * value.abs() + lost,
         }
+    }
+
+    /// As [`rounded`](Self::rounded) for what is not zero unless it is `exactly`: anything
+    /// below the smallest number may have become 0.
+    fn rounded_unless_zero(value: f64, inherited: f64, exactly: bool) -> Self {
+        let lost = if value == 0.0 && !exactly {
+            f64::MIN_POSITIVE
+        } else {
+            0.0
+        };
+        Self::rounded(value, inherited + lost)
     }
 }
 
@@ -87,13 +104,14 @@ fn node(dag: &Dag, id: Id, table: &[Bounded], values: &BTreeMap<Name, f64>) -> B
         Math::Mul([u, v]) => {
             let (u, v) = (of(*u), of(*v));
             let inherited = u.value.abs() * v.error + v.value.abs() * u.error;
-            Bounded::rounded(u.value * v.value, inherited)
+            let is_zero = u.value == 0.0 || v.value == 0.0;
+            Bounded::rounded_unless_zero(u.value * v.value, inherited, is_zero)
         }
         Math::Div([u, v]) => {
             let (u, v) = (of(*u), of(*v));
             let value = u.value / v.value;
             let inherited = (u.error + value.abs() * v.error) / v.value.abs();
-            Bounded::rounded(value, inherited)
+            Bounded::rounded_unless_zero(value, inherited, u.value == 0.0)
         }
         Math::Pow([u, v]) => power(of(*u), of(*v), dag.as_integer(*v)),
         Math::Call(function, u) => {
@@ -139,7 +157,8 @@ fn power(u: Bounded, v: Bounded, integer: Option<i64>) -> Bounded {
     let through_exponent = scaled(size * u.value.abs().ln().abs(), v.error);
     // repeated multiplication rounds once a factor
     let roundings = f64::EPSILON * size * v.value.abs().min(64.0);
-    Bounded::rounded(value, through_base + through_exponent + roundings)
+    let inherited = through_base + through_exponent + roundings;
+    Bounded::rounded_unless_zero(value, inherited, u.value == 0.0)
 }
 
 /// h(u) and h′(u).

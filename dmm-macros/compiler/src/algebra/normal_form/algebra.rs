@@ -8,7 +8,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::super::{Function, Name};
+use super::super::work::Budget;
+use super::super::{Dag, Function, Name};
 use super::Obstacle;
 use super::fraction::Fraction;
 use super::monomial::Atom;
@@ -51,18 +52,17 @@ pub(super) struct Algebra {
     /// How deep reductions of roots are nested just now.
     pub(super) depth: usize,
     /// The terms that may still be formed.
-    budget: usize,
-}
-
-impl Default for Algebra {
-    fn default() -> Self {
-        Self::with_budget(MOST_WORK)
-    }
+    pub(super) budget: Budget,
 }
 
 impl Algebra {
+    /// An algebra for expressions of `dag`.
+    pub(super) fn new(dag: &Dag) -> Self {
+        Self::with_budget(dag, MOST_WORK)
+    }
+
     /// An algebra that gives up after forming `budget` terms.
-    pub(super) fn with_budget(budget: usize) -> Self {
+    pub(super) fn with_budget(dag: &Dag, budget: usize) -> Self {
         Self {
             kinds: Vec::new(),
             variables: HashMap::new(),
@@ -72,16 +72,15 @@ impl Algebra {
             has_roots: false,
             has_phases: false,
             depth: 0,
-            budget,
+            budget: dag.work.budget(budget),
         }
     }
 
-    pub(super) fn spend(&mut self, terms: usize) -> Result<(), Obstacle> {
-        match self.budget.checked_sub(terms) {
-            Some(rest) => self.budget = rest,
-            None => return Err(Obstacle::TooLarge),
+    pub(super) fn spend(&self, terms: usize) -> Result<(), Obstacle> {
+        match self.budget.spend(terms) {
+            true => Ok(()),
+            false => Err(Obstacle::TooLarge),
         }
-        Ok(())
     }
 
     pub(super) fn kind(&self, atom: Atom) -> Option<&Kind> {

@@ -19,7 +19,7 @@ impl Algebra {
         if b.is_zero() {
             return Ok(a.clone());
         }
-        self.spend(a.numerator.len() + b.numerator.len())?;
+        self.spend(a.numerator.work() + b.numerator.work())?;
         if a.denominator == b.denominator {
             let numerator = a.numerator.add(&b.numerator)?;
             return Ok(self.fraction(numerator, a.denominator.clone()));
@@ -79,7 +79,7 @@ impl Algebra {
         self.cancel_small(&mut above_a, &mut below_b);
         self.cancel_small(&mut above_b, &mut below_a);
         let denominator = merge_factors(&below_a, &below_b, u32::checked_add)?;
-        self.spend(above_a.len().saturating_mul(above_b.len()))?;
+        self.spend(above_a.work_of_product(&above_b))?;
         let numerator = above_a.mul(&above_b)?;
         let reduced = self.reduce(numerator)?;
         let denominator = merge_factors(&denominator, &reduced.denominator, u32::checked_add)?;

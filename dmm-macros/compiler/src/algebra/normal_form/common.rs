@@ -37,7 +37,7 @@ pub struct CommonZeros {
 /// Where all of `roots` vanish, within their domain; `None` if all of them are identically
 /// zero, or it takes too long to find out.
 pub fn common_zeros(dag: &mut Dag, roots: &[Id]) -> Option<CommonZeros> {
-    let mut algebra = Algebra::with_budget(MOST_WORK);
+    let mut algebra = Algebra::with_budget(dag, MOST_WORK);
     algebra.assume_domain(dag, roots.iter().copied());
     let mut forms = Vec::new();
     for &root in roots {
@@ -161,7 +161,7 @@ impl<'a> Search<'a> {
             if self.quotient(other, &divisor)?.is_some() {
                 continue;
             }
-            match common_divisor(&divisor, other) {
+            match common_divisor(&divisor, other, &self.algebra.budget) {
                 Some(common) => divisor = self.algebra.primitive_part(&common)?.1,
                 None => {
                     divisor = Polynomial::one();
@@ -206,7 +206,7 @@ impl<'a> Search<'a> {
         atoms.retain(|atom| !self.units.contains(atom));
         for unit in &self.unit_polynomials {
             while rest.1.len() > 1
-                && let Some(quotient) = rest.1.divide(unit)
+                && let Some(quotient) = rest.1.divide(unit, &self.algebra.budget)
             {
                 rest.1 = quotient;
             }
@@ -227,7 +227,7 @@ impl<'a> Search<'a> {
         if divisor.is_one() {
             return Ok(Some(polynomial.clone()));
         }
-        if let Some(quotient) = polynomial.divide(divisor) {
+        if let Some(quotient) = polynomial.divide(divisor, &self.algebra.budget) {
             return Ok(Some(quotient));
         }
         for atom in self.roots.clone() {
@@ -238,7 +238,7 @@ impl<'a> Search<'a> {
             let root = Polynomial::atom(atom, half);
             let product = self.algebra.reduce(polynomial.mul(&root)?)?;
             if product.denominator.is_empty()
-                && let Some(quotient) = product.numerator.divide(divisor)
+                && let Some(quotient) = product.numerator.divide(divisor, &self.algebra.budget)
             {
                 return Ok(Some(quotient));
             }

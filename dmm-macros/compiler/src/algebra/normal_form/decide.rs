@@ -53,8 +53,8 @@ pub fn decide_zero_on(dag: &mut Dag, root: Id, domain: &[Id]) -> Verdict {
     let roots: Vec<Id> = [root].into_iter().chain(domain.iter().copied()).collect();
     let early = sample::soon_non_zero(dag, &roots);
     let mut algebra = match early {
-        Some(_) => Algebra::with_budget(RESIDUAL_WORK),
-        None => Algebra::default(),
+        Some(_) => Algebra::with_budget(dag, RESIDUAL_WORK),
+        None => Algebra::new(dag),
     };
     algebra.assume_domain(dag, roots.iter().copied());
     let form = form_of(&mut algebra, dag, root);
@@ -103,7 +103,7 @@ pub fn is_proved_zero(dag: &Dag, root: Id) -> bool {
     if sample::soon_non_zero(dag, &[root]).is_some() {
         return false;
     }
-    let mut algebra = Algebra::default();
+    let mut algebra = Algebra::new(dag);
     algebra.assume_domain(dag, [root]);
     form_of(&mut algebra, dag, root).is_ok_and(|form| form.is_zero())
 }

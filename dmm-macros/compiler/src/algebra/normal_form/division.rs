@@ -2,11 +2,9 @@
 
 use std::cmp::Ordering;
 
+use super::super::work::Budget;
 use super::monomial::{self, Atom, Exponent, Power};
 use super::polynomial::{Polynomial, Term, merge};
-
-/// A division is given up when its steps have gone over this many terms.
-const MOST_DIVISION_TERMS: usize = 120_000;
 
 impl Polynomial {
     /// The smallest and largest exponent of every atom, in rising order of the atoms.
@@ -43,12 +41,12 @@ impl Polynomial {
             .collect()
     }
 
-    /// self/divisor, if that is a Laurent polynomial.
+    /// self/divisor, if that is a Laurent polynomial and the budget is enough.
     ///
     /// The exponents of a product range over the sum of the factors' ranges, which bounds the
     /// quotient's exponents: most divisions that fail do so before the first step, and every
     /// one ends.
-    pub(super) fn divide(&self, divisor: &Self) -> Option<Self> {
+    pub(super) fn divide(&self, divisor: &Self, budget: &Budget) -> Option<Self> {
         let leading = divisor.terms().first()?;
         let inverse = leading.inverse().ok()?;
         if divisor.len() == 1 {
@@ -60,11 +58,10 @@ impl Polynomial {
         let bounds = self.quotient_bounds(divisor)?;
         let mut quotient: Vec<Term> = Vec::new();
         let mut rest = self.terms().to_vec();
-        let mut work = 0;
         while let Some(first) = rest.first() {
             let term = first.mul(&inverse).ok()?;
-            work += rest.len() + divisor.len();
-            if !within(&term.monomial, &bounds) || work > MOST_DIVISION_TERMS {
+            let work = divisor.work_of_product_with(&term) + rest.len() / 4;
+            if !within(&term.monomial, &bounds) || !budget.spend(work) {
                 return None;
             }
             let negated = Term {

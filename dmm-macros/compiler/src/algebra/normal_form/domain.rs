@@ -50,7 +50,11 @@ impl Algebra {
         let all = std::mem::take(&mut self.positive_factors);
         let is_product = |p: &Polynomial| {
             all.iter().any(|q| {
-                let quotient = if q == p { None } else { p.divide(q) };
+                let quotient = if q == p {
+                    None
+                } else {
+                    p.divide(q, &self.budget)
+                };
                 quotient.is_some_and(|rest| {
                     let ranges = rest.exponent_ranges();
                     ranges.iter().all(|(_, least, _)| !least.is_negative())
@@ -101,7 +105,7 @@ impl Algebra {
                     .ok_or(Obstacle::TooLarge)?;
             }
             while u.numerator.len() > 1
-                && let Some(quotient) = u.numerator.divide(&polynomial)
+                && let Some(quotient) = u.numerator.divide(&polynomial, &self.budget)
             {
                 u.numerator = quotient;
                 exponent = exponent.checked_add(1).ok_or(Obstacle::TooLarge)?;

@@ -39,7 +39,7 @@ impl Algebra {
                 continue;
             };
             while *multiplicity > 0 {
-                match numerator.divide(factor) {
+                match numerator.divide(factor, &self.budget) {
                     Some(quotient) => {
                         *numerator = quotient;
                         *multiplicity -= 1;
@@ -67,13 +67,15 @@ impl Algebra {
         let mut position = 0;
         while let Some(&(index, multiplicity)) = rest.denominator.get(position) {
             let factor = self.factor(index).cloned().ok_or(Obstacle::Undefined)?;
-            let Some(common) = common_divisor(&rest.numerator, &factor) else {
+            let Some(common) = common_divisor(&rest.numerator, &factor, &self.budget) else {
                 position += 1;
                 continue;
             };
             // factor = common·other, both to the power `multiplicity`
             let (_, common) = self.primitive_part(&common)?;
-            let other = factor.divide(&common).ok_or(Obstacle::Undefined)?;
+            let other = factor
+                .divide(&common, &self.budget)
+                .ok_or(Obstacle::TooLarge)?;
             let (unit, other) = self.factorise(&other)?;
             let common = vec![(self.known_factor(common), multiplicity)];
             let inverse = unit.inverse()?;
@@ -99,7 +101,7 @@ impl Algebra {
         for (index, factor) in self.factors.iter().enumerate() {
             let mut multiplicity = 0;
             while rest.len() > 1 {
-                match rest.divide(factor) {
+                match rest.divide(factor, &self.budget) {
                     Some(quotient) => {
                         rest = quotient;
                         multiplicity += 1;
@@ -131,6 +133,7 @@ impl Algebra {
         &self,
         polynomial: &Polynomial,
     ) -> Result<(Term, Polynomial), Obstacle> {
+        self.spend(polynomial.work())?;
         let mut monomial = Vec::new();
         for (atom, least, greatest) in polynomial.exponent_ranges() {
             let exponent = if self.is_phase(atom) {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use egg::Language;
 
-use super::super::{Dag, Id, Math};
+use super::super::{BuildQuick, Dag, Id, Math};
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
 use super::fraction::Fraction;
@@ -23,7 +23,7 @@ pub(super) fn normal_form(
 pub(super) struct Forms<'a> {
     algebra: &'a mut Algebra,
     dag: &'a Dag,
-    known: HashMap<Id, Fraction>,
+    known: HashMap<Id, Fraction, BuildQuick>,
 }
 
 impl<'a> Forms<'a> {
@@ -31,7 +31,7 @@ impl<'a> Forms<'a> {
         Self {
             algebra,
             dag,
-            known: HashMap::new(),
+            known: HashMap::default(),
         }
     }
 
@@ -131,6 +131,6 @@ impl<'a> Forms<'a> {
     }
 }
 
-fn known(forms: &HashMap<Id, Fraction>, id: Id) -> Result<&Fraction, Obstacle> {
+fn known(forms: &HashMap<Id, Fraction, BuildQuick>, id: Id) -> Result<&Fraction, Obstacle> {
     forms.get(&id).ok_or(Obstacle::Undefined)
 }

@@ -5,20 +5,23 @@
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
+use super::super::work::Budget;
 use super::monomial::{self, Atom, Exponent, Power};
 use super::number::{Coefficient, Number};
 use super::polynomial::{Polynomial, Term};
 
 /// Polynomials with more terms than this are left alone.
 const MOST_TERMS: usize = 200;
-/// Products of polynomials formed before giving up.
-const MOST_PRODUCTS: usize = 2_000;
 
 /// A common divisor of `a` and `b` with more than one term, the greatest up to a unit; `None`
 /// if there is none or it takes too long to find.
-pub(super) fn common_divisor(a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
+pub(super) fn common_divisor(
+    a: &Polynomial,
+    b: &Polynomial,
+    budget: &Budget,
+) -> Option<Polynomial> {
     let scale = common_denominators(a, b)?;
-    let mut search = Search { products: 0 };
+    let mut search = Search { budget };
     let a = stretched(&without_monomial(a)?, &scale, false)?;
     let b = stretched(&without_monomial(b)?, &scale, false)?;
     let divisor = search.gcd(&a, &b)?;
@@ -85,26 +88,32 @@ fn without_monomial(polynomial: &Polynomial) -> Option<Polynomial> {
 /// A polynomial in one atom: its coefficients from the constant one upwards.
 type Univariate = Vec<Polynomial>;
 
-struct Search {
-    products: usize,
+struct Search<'a> {
+    budget: &'a Budget,
 }
 
-impl Search {
+impl Search<'_> {
     fn mul(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
-        self.products += 1;
         let small = a.len() <= MOST_TERMS && b.len() <= MOST_TERMS;
-        (small && self.products <= MOST_PRODUCTS)
+        (small && self.budget.spend(a.work_of_product(b)))
             .then(|| a.mul(b).ok())
             .flatten()
+    }
+
+    fn monic(&self, polynomial: &Polynomial) -> Option<Polynomial> {
+        let leading = polynomial.terms().first()?;
+        let inverse = leading.coefficient.recip()?;
+        let work = polynomial.work() + polynomial.len().saturating_mul(inverse.work());
+        self.budget.spend(work).then(|| polynomial.scaled(&inverse))
     }
 
     /// The greatest common divisor of polynomials with natural exponents.
     fn gcd(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
         if a.is_zero() {
-            return monic(b);
+            return self.monic(b);
         }
         if b.is_zero() {
-            return monic(a);
+            return self.monic(a);
         }
         let (in_a, in_b) = (a.exponent_ranges(), b.exponent_ranges());
         let Some(&(atom, _, _)) = in_a.first() else {
@@ -128,10 +137,13 @@ impl Search {
         let (a, b) = (univariate(a, atom)?, univariate(b, atom)?);
         let (content_a, content_b) = (self.content(&a)?, self.content(&b)?);
         let content = self.gcd(&content_a, &content_b)?;
-        let primitive = self.remainders(over(a, &content_a)?, over(b, &content_b)?)?;
+        let primitive = self.remainders(
+            over(a, &content_a, self.budget)?,
+            over(b, &content_b, self.budget)?,
+        )?;
         let primitive = assembled(&primitive, atom)?;
         let product = self.mul(&content, &primitive)?;
-        monic(&product)
+        self.monic(&product)
     }
 
     /// The primitive pseudo-remainder sequence.
@@ -143,7 +155,7 @@ impl Search {
             let mut rest = self.pseudo_remainder(a, &b)?;
             if !rest.is_empty() {
                 let content = self.content(&rest)?;
-                rest = over(rest, &content)?;
+                rest = over(rest, &content, self.budget)?;
             }
             (a, b) = (b, rest);
         }
@@ -187,14 +199,9 @@ impl Search {
     }
 }
 
-fn monic(polynomial: &Polynomial) -> Option<Polynomial> {
-    let leading = polynomial.terms().first()?;
-    Some(polynomial.scaled(&leading.coefficient.recip()?))
-}
-
-fn over(a: Univariate, divisor: &Polynomial) -> Option<Univariate> {
+fn over(a: Univariate, divisor: &Polynomial, budget: &Budget) -> Option<Univariate> {
     a.iter()
-        .map(|coefficient| coefficient.divide(divisor))
+        .map(|coefficient| coefficient.divide(divisor, budget))
         .collect()
 }
 

@@ -61,7 +61,7 @@ enum Obstacle {
 /// `numerator`/`denominator` with common factors cancelled; `None` if the denominator is
 /// identically zero or there is no normal form.
 pub fn divide_exactly(dag: &mut Dag, numerator: Id, denominator: Id) -> Option<Quotient> {
-    let mut algebra = Algebra::default();
+    let mut algebra = Algebra::new(dag);
     let quotient = dag.insert(Math::Div([numerator, denominator]));
     let quotient = normal_form(&mut algebra, dag, quotient).ok()?;
     let quotient = algebra.lowest_terms(quotient).ok()?;
@@ -73,7 +73,7 @@ pub fn divide_exactly(dag: &mut Dag, numerator: Id, denominator: Id) -> Option<Q
 
 /// The normal form of `root` as an expression; `None` if it has none.
 pub fn normalise(dag: &mut Dag, root: Id) -> Option<Id> {
-    let mut algebra = Algebra::default();
+    let mut algebra = Algebra::new(dag);
     let form = normal_form(&mut algebra, dag, root).ok()?;
     Writer::new(dag, &mut algebra).fraction(&form)
 }

@@ -116,6 +116,18 @@ impl Number {
         }
     }
 
+    /// What arithmetic with it takes, that of a small one being 1: of long numbers it is the
+    /// cancelling of common factors, whose time grows with the square of their length.
+    fn work(&self) -> usize {
+        match self {
+            Self::Small(..) => 1,
+            Self::Big(value) => {
+                let bits = (value.numer().bits() + value.denom().bits()) as usize;
+                8 + bits / 3 + bits.saturating_mul(bits) / 4_096
+            }
+        }
+    }
+
     /// The integer, if it is one that fits.
     pub(super) fn as_integer(&self) -> Option<i64> {
         match self {
@@ -171,6 +183,14 @@ impl Coefficient {
 
     pub(super) fn is_real(&self) -> bool {
         self.im.is_zero()
+    }
+
+    /// What arithmetic with it takes, that of a small real one being 1.
+    pub(super) fn work(&self) -> usize {
+        match self.is_real() {
+            true => self.re.work(),
+            false => self.re.work() + self.im.work(),
+        }
     }
 
     pub(super) fn add(&self, other: &Self) -> Self {

@@ -116,6 +116,22 @@ impl Polynomial {
         self.terms.is_empty()
     }
 
+    /// What going over all terms takes, that of a term with small coefficients being 1.
+    pub(super) fn work(&self) -> usize {
+        self.terms.iter().map(|term| term.coefficient.work()).sum()
+    }
+
+    /// What multiplying with `other` takes.
+    pub(super) fn work_of_product(&self, other: &Self) -> usize {
+        let own = self.work().saturating_mul(other.len());
+        own.saturating_add(other.work().saturating_mul(self.len())) / 2
+    }
+
+    /// What multiplying with `term` takes.
+    pub(super) fn work_of_product_with(&self, term: &Term) -> usize {
+        (self.work() + self.len().saturating_mul(term.coefficient.work())) / 2
+    }
+
     pub(super) fn is_one(&self) -> bool {
         self.as_constant().is_some_and(Coefficient::is_one)
     }

@@ -64,7 +64,7 @@ pub type Exponent = (i64, i64);
 
 /// The normal forms of `roots`; `None` if one of them has none.
 pub fn terms(dag: &mut Dag, roots: &[Id]) -> Option<Terms> {
-    let mut algebra = Algebra::default();
+    let mut algebra = Algebra::new(dag);
     let mut fractions = Vec::with_capacity(roots.len());
     for &root in roots {
         let form = normal_form(&mut algebra, dag, root).ok()?;

@@ -189,6 +189,9 @@ impl<'a> Writer<'a> {
         pieces: &mut Vec<Piece>,
     ) -> Option<()> {
         let mut parts = self.parts(&term.monomial)?;
+        if !parts.phase.is_empty() || !parts.exponential.is_empty() {
+            self.algebra.spend(later.len()).ok()?;
+        }
         let two = Number::integer(2);
         if !parts.phase.is_empty() {
             let partner = self.take_partner(&term, &parts.phase, later)?;
