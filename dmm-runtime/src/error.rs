@@ -203,3 +203,24 @@ impl StepFailure {
         }
     }
 }
+
+/// Bad input.
+pub(crate) fn invalid(
+    what: &'static str,
+    value: String,
+    requirement: &'static str,
+) -> Result<(), Error> {
+    Err(Error::InvalidInput {
+        what,
+        value,
+        requirement,
+    })
+}
+
+/// A number as people write it: small and large ones with an exponent.
+pub(crate) fn number(value: f64) -> String {
+    match value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
+        true => format!("{value:e}"),
+        false => value.to_string(),
+    }
+}

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::end::{End, Halted};
-use crate::error::Error;
+use crate::error::{Error, invalid, number};
 use crate::observer::Observer;
 use crate::recording::Recording;
 use crate::scheme::Scheme;
@@ -11,7 +11,7 @@ use crate::solution::{Interrupted, Solution};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{System, Vector};
-use crate::time::{Grid, Time};
+use crate::time::Time;
 use crate::transition::{Locator, NewtonLocator, Start, check_region, find_region};
 use crate::walk::{Walk, run_segments};
 
@@ -157,9 +157,7 @@ where
             scheme: &self.integrator.scheme,
             locator: &self.integrator.locator,
             observer,
-            grid: self.grid(t_end),
-            node: 1,
-            at_node: true,
+            progress: self.progress(t_end),
             time: Time::new(self.t0),
             state: State::new(self.x0),
             region: start.region,
@@ -192,26 +190,12 @@ where
         }
     }
 
-    pub(crate) fn grid(&self, t_end: f64) -> Grid {
-        Grid::new(self.t0, t_end, self.integrator.scheme.step_size())
+    pub(crate) fn progress(&self, t_end: f64) -> Sch::Progress {
+        self.integrator.scheme.progress(self.t0, t_end)
     }
 
     fn check_input(&self, t_end: f64) -> Result<(), Error> {
-        let step_size = self.integrator.scheme.step_size();
-        let invalid = |what, value: String, requirement| {
-            Err(Error::InvalidInput {
-                what,
-                value,
-                requirement,
-            })
-        };
-        if !(step_size > 0.0 && step_size.is_finite()) {
-            return invalid(
-                "step size",
-                number(step_size),
-                "must be positive and finite",
-            );
-        }
+        self.integrator.scheme.check(self.t0, t_end)?;
         if !self.t0.is_finite() {
             return invalid("initial time", number(self.t0), "must be finite");
         }
@@ -220,15 +204,6 @@ where
                 "end time",
                 number(t_end),
                 "must be finite and not before the initial time",
-            );
-        }
-        if t_end > self.t0
-            && self.t0.abs().max(t_end.abs()) + step_size == self.t0.abs().max(t_end.abs())
-        {
-            return invalid(
-                "step size",
-                number(step_size),
-                "is below the rounding error of the time",
             );
         }
         if self.t0.abs().max(t_end.abs()) > LARGEST_TIME {
@@ -254,13 +229,5 @@ where
             return invalid("parameter", format!("{name} = {value}"), "must be finite");
         }
         Ok(())
-    }
-}
-
-/// A number as people write it: small and large ones with an exponent.
-fn number(value: f64) -> String {
-    match value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
-        true => format!("{value:e}"),
-        false => value.to_string(),
     }
 }

@@ -8,13 +8,13 @@
 //! | to | use |
 //! |---|---|
 //! | declare a system | [`pws!`] |
-//! | integrate it | [`Integrator`] with a [`Scheme`] such as [`Symmetric`] |
+//! | integrate it | [`Integrator`] with a [`Scheme`]: [`Taylor`], the fast one, or [`Symmetric`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | keep some of its points only | [`Recording`] |
 //! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
 //! | evaluate ψ at a point | [`System::conserved`] |
 //! | replace the search for crossings | [`Locator`] |
-//! | write a scheme | [`Scheme`], [`Flow`] |
+//! | write a scheme | [`OneStep`], [`Flow`] |
 //!
 //! A transition is what other libraries call an event.
 //!
@@ -25,6 +25,10 @@
 //! is the same at both ends (Wan, Bihlo & Nave, SIAM J. Numer. Anal. 55, 2017). A step that
 //! meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ and g = 0 (Hirani,
 //! Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
+//!
+//! That is [`Symmetric`], of order 2. [`Taylor`] takes the discrete vector field in minimal-norm
+//! form instead, with a Taylor polynomial of high order for its mean field and steps as long as
+//! a tolerance allows.
 //!
 //! # Conservation for ever
 //!
@@ -43,6 +47,7 @@ mod observer;
 mod recording;
 mod scalar;
 mod scheme;
+pub mod series;
 mod transition;
 
 mod solution;
@@ -65,7 +70,7 @@ pub use minimal_norm::MinimalNorm;
 pub use observer::{Observer, Point, Transition};
 pub use recording::Recording;
 pub use scalar::Scalar;
-pub use scheme::{Correction, Scheme, Step, Symmetric};
+pub use scheme::{Correction, OneStep, Scheme, Step, Symmetric, Taylor};
 pub use solution::{Interrupted, Solution};
 pub use state::State;
 pub use statistics::Statistics;

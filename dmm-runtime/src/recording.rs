@@ -83,7 +83,7 @@ where
         let solution = Solution::new(
             self.problem.integrator.system.clone(),
             self.problem.integrator.scheme.clone(),
-            self.problem.grid(t_end),
+            self.problem.progress(t_end),
             recorder,
             statistics,
         );

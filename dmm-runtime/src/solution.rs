@@ -5,17 +5,16 @@ use std::ops::ControlFlow;
 
 use crate::error::Error;
 use crate::observer::{Observer, Point, Transition};
-use crate::scheme::{Scheme, Step};
+use crate::scheme::{Drive, Scheme, Stuck};
 use crate::statistics::Statistics;
 use crate::system::{Flow, FlowVisitor, System, Vector};
-use crate::time::Grid;
 
 /// A trajectory: points, transitions, statistics, and the solution at any time in between.
 #[derive(Clone, Debug)]
-pub struct Solution<Sys: System<N>, Sch, const N: usize> {
+pub struct Solution<Sys: System<N>, Sch: Scheme, const N: usize> {
     system: Sys,
     scheme: Sch,
-    grid: Grid,
+    progress: Sch::Progress,
     recorder: Recorder<Sys::Region, N>,
     statistics: Statistics,
 }
@@ -24,14 +23,14 @@ impl<Sys: System<N>, Sch: Scheme, const N: usize> Solution<Sys, Sch, N> {
     pub(crate) fn new(
         system: Sys,
         scheme: Sch,
-        grid: Grid,
+        progress: Sch::Progress,
         recorder: Recorder<Sys::Region, N>,
         statistics: Statistics,
     ) -> Self {
         Self {
             system,
             scheme,
-            grid,
+            progress,
             recorder,
             statistics,
         }
@@ -88,7 +87,7 @@ impl<Sys: System<N>, Sch: Scheme, const N: usize> Solution<Sys, Sch, N> {
             anchor.region,
             Reach {
                 scheme: &self.scheme,
-                grid: &self.grid,
+                progress: &self.progress,
                 from: anchor.t,
                 to: t,
                 x: anchor.x,
@@ -99,38 +98,25 @@ impl<Sys: System<N>, Sch: Scheme, const N: usize> Solution<Sys, Sch, N> {
 }
 
 /// Steps from a point to a time, in one region.
-struct Reach<'a, Sch, const N: usize> {
+struct Reach<'a, Sch: Drive, const N: usize> {
     scheme: &'a Sch,
-    grid: &'a Grid,
+    progress: &'a Sch::Progress,
     from: f64,
     to: f64,
     x: Vector<f64, N>,
     region: &'static str,
 }
 
-impl<Sch: Scheme, const N: usize> FlowVisitor<N> for Reach<'_, Sch, N> {
+impl<Sch: Drive, const N: usize> FlowVisitor<N> for Reach<'_, Sch, N> {
     type Output = Result<Vector<f64, N>, Error>;
 
-    fn visit<const M: usize, F: Flow<f64, N, M>>(mut self, flow: &F) -> Self::Output {
-        let mut t = self.from;
-        let mut node = self.grid.node_after(t);
-        while t < self.to {
-            let end = self.grid.value(node).min(self.to);
-            let tau = end - t;
-            let step = Step {
-                flow,
-                t0: t,
-                x0: &self.x,
-                tau,
-            };
-            self.x += self
-                .scheme
-                .step(&step, &mut Statistics::default())
-                .map_err(|failure| failure.at(t, &self.x, tau, self.region))?;
-            t = end;
-            node += 1;
-        }
-        Ok(self.x)
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output {
+        let (from, to) = (self.from, self.to);
+        let reached = self.scheme.reach(self.progress, flow, (from, self.x), to);
+        reached.map_err(|stuck| {
+            let Stuck { failure, t, x, tau } = stuck;
+            failure.at(t, &x, tau, self.region)
+        })
     }
 }
 
@@ -243,12 +229,12 @@ impl<R: Copy, const N: usize> Observer<R, N> for Recorder<R, N> {
 }
 
 /// An integration that stopped before its end time, with the solution up to there.
-pub struct Interrupted<Sys: System<N>, Sch, const N: usize> {
+pub struct Interrupted<Sys: System<N>, Sch: Scheme, const N: usize> {
     error: Error,
     solution: Box<Solution<Sys, Sch, N>>,
 }
 
-impl<Sys: System<N>, Sch, const N: usize> Interrupted<Sys, Sch, N> {
+impl<Sys: System<N>, Sch: Scheme, const N: usize> Interrupted<Sys, Sch, N> {
     pub(crate) fn new(error: Error, solution: Solution<Sys, Sch, N>) -> Self {
         Self {
             error,
@@ -272,7 +258,7 @@ impl<Sys: System<N>, Sch, const N: usize> Interrupted<Sys, Sch, N> {
     }
 }
 
-impl<Sys: System<N>, Sch, const N: usize> fmt::Debug for Interrupted<Sys, Sch, N> {
+impl<Sys: System<N>, Sch: Scheme, const N: usize> fmt::Debug for Interrupted<Sys, Sch, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Interrupted")
             .field("error", &self.error)
@@ -281,13 +267,13 @@ impl<Sys: System<N>, Sch, const N: usize> fmt::Debug for Interrupted<Sys, Sch, N
     }
 }
 
-impl<Sys: System<N>, Sch, const N: usize> fmt::Display for Interrupted<Sys, Sch, N> {
+impl<Sys: System<N>, Sch: Scheme, const N: usize> fmt::Display for Interrupted<Sys, Sch, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.error.fmt(f)
     }
 }
 
-impl<Sys: System<N>, Sch, const N: usize> std::error::Error for Interrupted<Sys, Sch, N> {
+impl<Sys: System<N>, Sch: Scheme, const N: usize> std::error::Error for Interrupted<Sys, Sch, N> {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         self.error.source()
     }

@@ -2,6 +2,7 @@
 
 pub use crate::minimal_norm::MinimalNorm;
 pub use crate::scalar::Scalar;
+pub use crate::series;
 pub use crate::sparse::sparse;
 pub use crate::system::{
     Boundary, Flow, FlowVisitor, Matrix, Side, Solvability, System, Unbounded, Vector,

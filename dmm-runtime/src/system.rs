@@ -8,6 +8,7 @@
 use std::fmt::Debug;
 
 use crate::scalar::Scalar;
+use crate::series::{self, Order, Unroll};
 
 /// A column of N scalars.
 pub type Vector<S, const N: usize> = nalgebra::SVector<S, N>;
@@ -193,6 +194,20 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
     ) -> Vector<S, N> {
         Vector::from_element(S::from_f64(0.0))
     }
+
+    /// The Taylor coefficients x₀ … x_{P−1} of the solution's N components, and of what f is
+    /// computed from: an array of P coefficients each, the components first.
+    type Series<const P: usize>: Clone + AsRef<[[S; P]]> + AsMut<[[S; P]]>;
+
+    /// Whether [`Flow::advance`] is straight-line code for each order.
+    type Unrolled: Unroll;
+
+    /// Room for the coefficients.
+    fn series<const P: usize>() -> Self::Series<P>;
+
+    /// From the coefficients up to order k, those of order k + 1 of the solution, at time t. Of
+    /// the order 0 only those of the components are given.
+    fn advance<K: Order, const P: usize>(&self, k: K, t: S, series: &mut Self::Series<P>);
 }
 
 /// The interfaces that bound a region.
@@ -216,6 +231,26 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
 
     /// ∂ₜg and ∇g at (t, x).
     fn switching_gradient(&self, interface: usize, t: S, x: &Vector<S, N>) -> (S, Vector<S, N>);
+
+    /// The Taylor coefficients of every g, in the order of [`System::INTERFACES`], and of what
+    /// they are computed from.
+    type Series<const P: usize>: Clone + AsRef<[[S; P]]> + AsMut<[[S; P]]>;
+
+    /// Whether [`Boundary::advance`] is straight-line code for each order.
+    type Unrolled: Unroll;
+
+    /// Room for the coefficients.
+    fn series<const P: usize>() -> Self::Series<P>;
+
+    /// The coefficients of order k of every g at time t, along the solution with the
+    /// coefficients `states`.
+    fn advance<K: Order, const P: usize>(
+        &self,
+        k: K,
+        t: S,
+        states: &[[S; P]],
+        series: &mut Self::Series<P>,
+    );
 }
 
 /// The boundary of a region that has none.
@@ -242,4 +277,13 @@ impl<S: Scalar, const N: usize> Boundary<S, N> for Unbounded {
     fn switching_gradient(&self, _: usize, _: S, _: &Vector<S, N>) -> (S, Vector<S, N>) {
         (S::from_f64(0.0), Vector::from_element(S::from_f64(0.0)))
     }
+
+    type Series<const P: usize> = [[S; P]; 0];
+    type Unrolled = series::Straight;
+
+    fn series<const P: usize>() -> [[S; P]; 0] {
+        []
+    }
+
+    fn advance<K: Order, const P: usize>(&self, _: K, _: S, _: &[[S; P]], _: &mut [[S; P]; 0]) {}
 }

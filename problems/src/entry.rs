@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dmm_runtime::{
     Boundary, Error, Flow, FlowVisitor, Integrator, Locator, NewtonLocator, Observer, Point,
-    Scheme, Statistics, Symmetric, System, Time, Transition, Vector,
+    Scheme, Statistics, Symmetric, System, Taylor, Time, Transition, Vector,
 };
 
 use crate::midpoint::ExplicitMidpoint;
@@ -57,9 +57,16 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
             .initial(0.0, Self::vector(&run.initial));
         Ok(problem.observe_until(run.t_end, &mut relay)?.statistics)
     }
+
+    /// An integration that nobody observes.
+    fn silently<Sch: Scheme>(&self, run: &Run, scheme: Sch) -> Result<Statistics, Error> {
+        let problem =
+            Integrator::new(&self.system, scheme).initial(0.0, Self::vector(&run.initial));
+        Ok(problem.observe_until(run.t_end, &mut ())?.statistics)
+    }
 }
 
-/// The conservative scheme of a run.
+/// The conservative scheme of order 2 of a run.
 fn symmetric(run: &Run) -> Symmetric {
     Symmetric::step_size(run.step_size)
 }
@@ -280,6 +287,9 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
                 let scheme = symmetric(run).level_correction(level_correction);
                 self.observe(run, scheme, NewtonLocator, sink)
             }
+            Method::Taylor { tolerance } => {
+                self.observe(run, Taylor::tolerance(tolerance), NewtonLocator, sink)
+            }
             Method::ExplicitMidpoint => {
                 let scheme = ExplicitMidpoint::step_size(run.step_size);
                 self.observe(run, scheme, NewtonLocator, sink)
@@ -292,17 +302,14 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
     }
 
     fn integrate_silently(&self, run: &Run) -> Result<Statistics, Error> {
-        let Method::Symmetric { level_correction } = run.method else {
+        match run.method {
+            Method::Symmetric { level_correction } => {
+                self.silently(run, symmetric(run).level_correction(level_correction))
+            }
+            Method::Taylor { tolerance } => self.silently(run, Taylor::tolerance(tolerance)),
             // for comparison only: not worth the time to compile each a second time
-            return self.integrate(run, &mut Nobody);
-        };
-        let end = Integrator::new(
-            &self.system,
-            symmetric(run).level_correction(level_correction),
-        )
-        .initial(0.0, Self::vector(&run.initial))
-        .observe_until(run.t_end, &mut ())?;
-        Ok(end.statistics)
+            _ => self.integrate(run, &mut Nobody),
+        }
     }
 
     fn duplicate(&self) -> Box<dyn Problem> {

@@ -2,7 +2,7 @@
 //! method of order 2 that Hirani, Wan & Wojtalewicz compare with (their Figs 5 and 8). It
 //! does not conserve ψ.
 
-use dmm_runtime::{Correction, Flow, Scheme, Statistics, Step, StepFailure, Vector};
+use dmm_runtime::{Correction, Flow, OneStep, Statistics, Step, StepFailure, Vector};
 
 /// The explicit midpoint rule with uniform steps, without a correction of the level.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -25,7 +25,7 @@ fn increment<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     flow.vector_field(t0 + half, &middle) * tau
 }
 
-impl Scheme for ExplicitMidpoint {
+impl OneStep for ExplicitMidpoint {
     type Memory<const N: usize> = ();
 
     fn step_size(&self) -> f64 {

@@ -3,7 +3,7 @@
 //! Hirani, Wan & Wojtalewicz (Figs 4 and 7) show with it what their Theorem 3.1 says: the
 //! order of the scheme survives the transition for p ≥ 2 and falls to 1 for p = 1.
 
-use dmm_runtime::{Crossing, Flow, Located, Locator, NewtonLocator, Scheme, Statistics};
+use dmm_runtime::{Crossing, Flow, Located, Locator, NewtonLocator, OneStep, Statistics};
 
 /// [`NewtonLocator`], then `amplitude`·τ^`power` later along the one-step map.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -15,7 +15,7 @@ pub struct Perturbed {
 }
 
 impl Locator for Perturbed {
-    fn locate<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn locate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
         crossing: &Crossing<'_, Sch, F, N>,
         statistics: &mut Statistics,

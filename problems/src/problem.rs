@@ -37,6 +37,11 @@ pub enum Method {
         /// Whether the level of ψ is kept (default) or left to rounding.
         level_correction: bool,
     },
+    /// Taylor's method with conservation, with steps of its own choice.
+    Taylor {
+        /// The error of a step, relative to the state.
+        tolerance: f64,
+    },
     /// The explicit midpoint rule with the same transitions, for comparison.
     ExplicitMidpoint,
     /// The conservative scheme with every crossing located too late by `amplitude`·τ^`power`.

@@ -4,10 +4,14 @@
 //! the flow's discrete vector field. Regions, transitions, levels, output and time are the
 //! integrator's, the same for every scheme (Hirani, Wan & Wojtalewicz, Algorithm 2.1).
 
+mod drive;
 mod newton;
 mod symmetric;
+mod taylor;
 
+pub(crate) use drive::{Drive, Stuck};
 pub use symmetric::Symmetric;
+pub use taylor::Taylor;
 
 use crate::error::StepFailure;
 use crate::statistics::Statistics;
@@ -26,11 +30,17 @@ pub struct Step<'a, F, const N: usize> {
     pub tau: f64,
 }
 
+/// What an [`Integrator`](crate::Integrator) integrates by: a [`OneStep`] scheme with uniform
+/// steps such as [`Symmetric`], or [`Taylor`].
+pub trait Scheme: Drive {}
+
+impl<Sch: Drive> Scheme for Sch {}
+
 /// A one-step scheme with uniform steps.
 ///
 /// The scheme is asked for increments d = x₁ − x₀ rather than for x₁, so that they keep their
 /// relative accuracy however small the step.
-pub trait Scheme: Clone {
+pub trait OneStep: Clone {
     /// What is remembered from step to step within a segment.
     type Memory<const N: usize>: Clone;
 
@@ -82,7 +92,7 @@ pub trait Scheme: Clone {
     ) -> Option<Correction<N>>;
 }
 
-/// See [`Scheme::correction`].
+/// See [`OneStep::correction`].
 #[derive(Clone, Copy, Debug)]
 pub struct Correction<const N: usize> {
     /// What to add to the increment.

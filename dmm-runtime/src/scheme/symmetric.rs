@@ -2,7 +2,7 @@
 
 use crate::error::StepFailure;
 use crate::linear::{is_finite, solve};
-use crate::scheme::{Correction, Scheme, Step};
+use crate::scheme::{Correction, OneStep, Step};
 use crate::statistics::Statistics;
 use crate::system::{Flow, Matrix, Solvability, Vector};
 
@@ -130,7 +130,7 @@ fn propagator<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     Some(Propagator { linear, offset })
 }
 
-impl Scheme for Symmetric {
+impl OneStep for Symmetric {
     type Memory<const N: usize> = Memory<N>;
 
     fn step_size(&self) -> f64 {

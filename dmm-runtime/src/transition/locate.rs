@@ -8,7 +8,7 @@
 //! [`Integrator::locator`]: crate::Integrator::locator
 
 use crate::error::StepFailure;
-use crate::scheme::{Scheme, Step};
+use crate::scheme::{OneStep, Step};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Vector};
@@ -50,14 +50,14 @@ pub struct Located<const N: usize> {
 /// Finds the point at which an interface is crossed.
 pub trait Locator {
     /// Solves for (t̂*, x̂*), or returns nothing if it cannot.
-    fn locate<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn locate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
         crossing: &Crossing<'_, Sch, F, N>,
         statistics: &mut Statistics,
     ) -> Option<Located<N>>;
 }
 
-impl<Sch: Scheme, F, const N: usize> Crossing<'_, Sch, F, N> {
+impl<Sch: OneStep, F, const N: usize> Crossing<'_, Sch, F, N> {
     /// The part of the step until `elapsed`.
     fn part(&self, elapsed: f64) -> Step<'_, F, N> {
         Step {
@@ -117,7 +117,7 @@ impl NewtonLocator {
     /// A correction of time smaller than this part of the step is the last.
     const CONVERGED: f64 = 1e-9;
 
-    fn newton<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn newton<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         crossing: &Crossing<'_, Sch, F, N>,
         statistics: &mut Statistics,
     ) -> Option<Located<N>> {
@@ -154,7 +154,7 @@ impl NewtonLocator {
     }
 
     /// Illinois' modification of regula falsi: superlinear, and the bracket never opens.
-    fn bracket<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn bracket<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         crossing: &Crossing<'_, Sch, F, N>,
         statistics: &mut Statistics,
     ) -> Option<Located<N>> {
@@ -194,7 +194,7 @@ impl NewtonLocator {
 }
 
 /// g along the one-step map, and the increment there.
-fn value_at<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+fn value_at<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
     crossing: &Crossing<'_, Sch, F, N>,
     elapsed: f64,
     statistics: &mut Statistics,
@@ -209,7 +209,7 @@ fn value_at<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
 }
 
 impl Locator for NewtonLocator {
-    fn locate<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn locate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
         crossing: &Crossing<'_, Sch, F, N>,
         statistics: &mut Statistics,

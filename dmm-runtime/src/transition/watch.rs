@@ -7,7 +7,7 @@
 //! the minimum decides.
 
 use crate::scalar::Scalar;
-use crate::scheme::Scheme;
+use crate::scheme::OneStep;
 use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Vector};
 use crate::transition::Crossing;
@@ -82,7 +82,7 @@ impl Watch {
 
     /// Looks closely at a step over `crossing.upper` from its state.
     #[cold]
-    pub(crate) fn examine<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    pub(crate) fn examine<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
         crossing: &Crossing<'_, Sch, F, N>,
         increment: &Vector<f64, N>,
@@ -135,7 +135,7 @@ impl Watch {
     }
 
     /// g falls at the start and rises at the end: how deep is its minimum?
-    fn dip<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn dip<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         crossing: &Crossing<'_, Sch, F, N>,
         noise: f64,
         statistics: &mut Statistics,
@@ -174,7 +174,7 @@ impl Watch {
     }
 
     /// The rounding error of g: of its terms, and of the state that it is taken at.
-    fn noise<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn noise<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
         crossing: &Crossing<'_, Sch, F, N>,
         elapsed: f64,
         increment: &Vector<f64, N>,
@@ -191,7 +191,7 @@ impl Watch {
 }
 
 /// g and dg/dt = ∂ₜg + ∇g·f, positive inside and inwards.
-fn value_and_rate<Sch: Scheme, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+fn value_and_rate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
     crossing: &Crossing<'_, Sch, F, N>,
     elapsed: f64,
     increment: &Vector<f64, N>,

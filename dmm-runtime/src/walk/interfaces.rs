@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
-use crate::scheme::Scheme;
+use crate::scheme::OneStep;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::transition::watch::{Outcome, Watch};
 use crate::transition::{Crossing, Located, Locator, rate};
@@ -73,7 +73,7 @@ fn sides<const N: usize, const M: usize, F: Flow<f64, N, M>>() -> &'static [(usi
 impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
 where
     Sys: System<N>,
-    Sch: Scheme,
+    Sch: OneStep,
     Loc: Locator,
     Obs: Observer<Sys::Region, N>,
 {
@@ -121,7 +121,7 @@ where
             state: &self.state,
             lower: 0.0,
             upper: tau,
-            step_size: self.grid.step_size,
+            step_size: self.progress.grid.step_size,
             sign,
         };
         let located = match watch.examine(&crossing, increment, &mut self.statistics) {
@@ -158,7 +158,7 @@ where
         let time = self.time.after(located.elapsed);
         self.outputs(flow, located.elapsed, time)?;
         self.accept(flow, level, &located.increment, located.elapsed, time)?;
-        self.at_node = false;
+        self.progress.at_node = false;
         if self.tell_point().is_break() {
             return Ok(SegmentEnd::Stopped);
         }

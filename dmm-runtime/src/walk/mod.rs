@@ -4,6 +4,7 @@
 //! that the loop over steps is compiled for that flow; for a smooth system the look at
 //! interfaces is compiled away.
 
+mod expand;
 mod interfaces;
 mod run;
 mod steps;
@@ -13,27 +14,22 @@ pub(crate) use run::run_segments;
 use std::ops::ControlFlow;
 
 use crate::error::{Error, StepFailure};
-use crate::level::Level;
-use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
-use crate::scheme::{Scheme, Step};
+use crate::scheme::{Drive, Scheme};
 use crate::state::State;
 use crate::statistics::Statistics;
-use crate::system::{Flow, System, Vector};
-use crate::time::{Grid, Time};
+use crate::system::{Flow, FlowVisitor, System};
+use crate::time::Time;
 use crate::transition::Locator;
 
 /// An integration under way.
-pub(crate) struct Walk<'a, Sys: System<N>, Sch, Loc, Obs, const N: usize> {
+pub struct Walk<'a, Sys: System<N>, Sch: Drive, Loc, Obs, const N: usize> {
     pub(crate) system: &'a Sys,
     pub(crate) scheme: &'a Sch,
     pub(crate) locator: &'a Loc,
     pub(crate) observer: &'a mut Obs,
-    pub(crate) grid: Grid,
-    /// The node of the grid that the next step ends at.
-    pub(crate) node: u64,
-    /// Whether the walk is at the node before, so that the next step is a full one.
-    pub(crate) at_node: bool,
+    /// How far the scheme's steps are.
+    pub(crate) progress: Sch::Progress,
     pub(crate) time: Time,
     pub(crate) state: State<N>,
     pub(crate) region: Sys::Region,
@@ -43,17 +39,33 @@ pub(crate) struct Walk<'a, Sys: System<N>, Sch, Loc, Obs, const N: usize> {
 }
 
 /// How a segment ended.
-pub(crate) enum SegmentEnd {
+#[derive(Clone, Copy, Debug)]
+pub enum SegmentEnd {
     /// At the end time.
     Finished,
     /// By the observer's wish.
     Stopped,
     /// On an interface; the walk's time and state are (t̂*, x̂*).
     Crossed {
+        /// Which one.
         interface: usize,
         /// dg/dt under the region's field.
         rate: f64,
     },
+}
+
+impl<Sys, Sch, Loc, Obs, const N: usize> FlowVisitor<N> for &mut Walk<'_, Sys, Sch, Loc, Obs, N>
+where
+    Sys: System<N>,
+    Sch: Scheme,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
+    type Output = Result<SegmentEnd, Error>;
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output {
+        Sch::segment(self, flow)
+    }
 }
 
 impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
@@ -79,31 +91,6 @@ where
         self.observer.point(&point)
     }
 
-    /// Writes the local variables of [`Walk::full_steps`] back: the walk is at `state` at the
-    /// node before `node`.
-    #[cold]
-    fn settle<const M: usize, F: Flow<f64, N, M>>(
-        &mut self,
-        state: State<N>,
-        node: u64,
-        counts: &mut Statistics,
-    ) {
-        self.state = state;
-        self.node = node;
-        self.time = self.node_time::<M, F>(node - 1);
-        self.statistics += std::mem::take(counts);
-    }
-
-    /// The time of a node: exact for an autonomous flow; for others the double that its
-    /// formulas are evaluated at.
-    fn node_time<const M: usize, F: Flow<f64, N, M>>(&self, node: u64) -> Time {
-        if F::AUTONOMOUS {
-            self.grid.time(node)
-        } else {
-            Time::new(self.grid.value(node))
-        }
-    }
-
     /// The error of a step that cannot be made from here.
     #[cold]
     fn failure(&self, failure: StepFailure, tau: f64) -> Error {
@@ -115,28 +102,6 @@ where
         )
     }
 
-    /// Moves over `increment` to `time`, corrected towards the level.
-    fn accept<const M: usize, F: Flow<f64, N, M>>(
-        &mut self,
-        flow: &F,
-        level: &Level<N, M>,
-        increment: &Vector<f64, N>,
-        tau: f64,
-        time: Time,
-    ) -> Result<(), Error> {
-        let mut state = self.state.after(increment);
-        if !is_finite(&state.x) {
-            return Err(self.failure(StepFailure::NotFinite, tau));
-        }
-        if self.scheme.corrects_level() {
-            state.remainder += level.correction(flow, time, &state);
-        }
-        self.state = state.normalised();
-        self.time = time;
-        self.statistics.steps += 1;
-        Ok(())
-    }
-
     /// Serves the output times up to the start.
     pub(crate) fn start_outputs(&mut self) {
         while let Some(t) = self.observer.next_output()
@@ -145,40 +110,5 @@ where
             let point = Point { t, ..self.point() };
             self.observer.output(&point);
         }
-    }
-
-    /// Serves the output times up to `end`, the end of a step over `tau`.
-    fn outputs<const M: usize, F: Flow<f64, N, M>>(
-        &mut self,
-        flow: &F,
-        tau: f64,
-        end: Time,
-    ) -> Result<(), Error> {
-        while let Some(t) = self.observer.next_output()
-            && t <= end.value
-        {
-            let elapsed = Time::new(t).since(self.time).max(0.0).min(tau);
-            let step = Step {
-                flow,
-                t0: self.time.value,
-                x0: &self.state.x,
-                tau: elapsed,
-            };
-            let increment = match elapsed > 0.0 {
-                true => self
-                    .scheme
-                    .step(&step, &mut Statistics::default())
-                    .map_err(|failure| self.failure(failure, elapsed))?,
-                false => Vector::zeros(),
-            };
-            let point = Point {
-                t,
-                time: Time::new(t),
-                x: self.state.after(&increment).rounded(),
-                region: self.region,
-            };
-            self.observer.output(&point);
-        }
-        Ok(())
     }
 }

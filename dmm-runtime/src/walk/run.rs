@@ -31,12 +31,13 @@ where
             SegmentEnd::Finished | SegmentEnd::Stopped => return Ok(()),
             SegmentEnd::Crossed { interface, rate } => (interface, rate),
         };
-        transitions_in_step = if walk.node == step {
+        let number = Sch::step_number(&walk.progress);
+        transitions_in_step = if number == step {
             transitions_in_step + 1
         } else {
             1
         };
-        step = walk.node;
+        step = number;
         if transitions_in_step > LARGEST_TRANSITIONS_A_STEP {
             return Err(Error::Zeno {
                 t: walk.time.value,

@@ -4,9 +4,10 @@ use crate::error::{Error, StepFailure};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
-use crate::scheme::{Scheme, Step};
+use crate::scheme::{OneStep, Step};
+use crate::state::State;
 use crate::statistics::Statistics;
-use crate::system::{Flow, FlowVisitor, System};
+use crate::system::{Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
 use crate::walk::interfaces::{Watches, advance, is_near, watches};
@@ -19,20 +20,22 @@ const INTERVAL: u64 = 32;
 /// [`INTERVAL`].
 const RESCALING: u64 = 256;
 
-impl<Sys, Sch, Loc, Obs, const N: usize> FlowVisitor<N> for &mut Walk<'_, Sys, Sch, Loc, Obs, N>
+impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
 where
     Sys: System<N>,
-    Sch: Scheme,
+    Sch: OneStep,
     Loc: Locator,
     Obs: Observer<Sys::Region, N>,
 {
-    type Output = Result<SegmentEnd, Error>;
-
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output {
+    /// Uniform steps, until the boundary of the region or the end time is reached.
+    pub(crate) fn uniform_segment<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+    ) -> Result<SegmentEnd, Error> {
         let mut level = Level::enter(flow, self.time, &self.state);
         let mut watches = watches(flow, self.time.value, &self.state.x, self.fresh);
         loop {
-            let end = match self.at_node && self.node < self.grid.count {
+            let end = match self.progress.at_node && self.progress.node < self.progress.grid.count {
                 true => self.full_steps(flow, &mut level, &mut watches)?,
                 false => self.partial_step(flow, &level, &mut watches)?,
             };
@@ -41,15 +44,7 @@ where
             }
         }
     }
-}
 
-impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
-where
-    Sys: System<N>,
-    Sch: Scheme,
-    Loc: Locator,
-    Obs: Observer<Sys::Region, N>,
-{
     /// Full steps, until the last node but one or whatever ends the segment.
     ///
     /// The state is a local variable, and the time is computed where it is used: the clock of
@@ -60,12 +55,12 @@ where
         level: &mut Level<N, M>,
         watches: &mut Watches<F, N, M>,
     ) -> Result<Option<SegmentEnd>, Error> {
-        let grid = self.grid;
+        let grid = self.progress.grid;
         let corrects_level = self.scheme.corrects_level();
         let mut memory = self.scheme.begin(flow, self.time.value, &self.state.x);
         let mut counts = Statistics::default();
         let mut state = self.state;
-        let mut node = self.node;
+        let mut node = self.progress.node;
         // the last state known to be finite, where not every one is checked
         let mut finite = (state, node);
         let end = loop {
@@ -141,10 +136,10 @@ where
         level: &Level<N, M>,
         watches: &mut Watches<F, N, M>,
     ) -> Result<Option<SegmentEnd>, Error> {
-        if self.node > self.grid.count {
+        if self.progress.node > self.progress.grid.count {
             return Ok(Some(SegmentEnd::Finished));
         }
-        let end = self.node_time::<M, F>(self.node);
+        let end = self.node_time::<M, F>(self.progress.node);
         let tau = end.since(self.time);
         // zero where a transition was at this node, negative where a locator moved it beyond
         if tau > 0.0 {
@@ -168,8 +163,90 @@ where
                 return Ok(Some(SegmentEnd::Stopped));
             }
         }
-        self.node += 1;
-        self.at_node = tau >= 0.0;
+        self.progress.node += 1;
+        self.progress.at_node = tau >= 0.0;
         Ok(None)
+    }
+
+    /// Writes the local variables of [`Walk::full_steps`] back: the walk is at `state` at the
+    /// node before `node`.
+    #[cold]
+    fn settle<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        state: State<N>,
+        node: u64,
+        counts: &mut Statistics,
+    ) {
+        self.state = state;
+        self.progress.node = node;
+        self.time = self.node_time::<M, F>(node - 1);
+        self.statistics += std::mem::take(counts);
+    }
+
+    /// The time of a node: exact for an autonomous flow; for others the double that its
+    /// formulas are evaluated at.
+    fn node_time<const M: usize, F: Flow<f64, N, M>>(&self, node: u64) -> Time {
+        if F::AUTONOMOUS {
+            self.progress.grid.time(node)
+        } else {
+            Time::new(self.progress.grid.value(node))
+        }
+    }
+
+    /// Moves over `increment` to `time`, corrected towards the level.
+    pub(super) fn accept<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        level: &Level<N, M>,
+        increment: &Vector<f64, N>,
+        tau: f64,
+        time: Time,
+    ) -> Result<(), Error> {
+        let mut state = self.state.after(increment);
+        if !is_finite(&state.x) {
+            return Err(self.failure(StepFailure::NotFinite, tau));
+        }
+        if self.scheme.corrects_level() {
+            state.remainder += level.correction(flow, time, &state);
+        }
+        self.state = state.normalised();
+        self.time = time;
+        self.statistics.steps += 1;
+        Ok(())
+    }
+
+    /// Serves the output times up to `end`, the end of a step over `tau`.
+    pub(super) fn outputs<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        tau: f64,
+        end: Time,
+    ) -> Result<(), Error> {
+        while let Some(t) = self.observer.next_output()
+            && t <= end.value
+        {
+            let elapsed = Time::new(t).since(self.time).max(0.0).min(tau);
+            let step = Step {
+                flow,
+                t0: self.time.value,
+                x0: &self.state.x,
+                tau: elapsed,
+            };
+            let increment = match elapsed > 0.0 {
+                true => self
+                    .scheme
+                    .step(&step, &mut Statistics::default())
+                    .map_err(|failure| self.failure(failure, elapsed))?,
+                false => Vector::zeros(),
+            };
+            let point = Point {
+                t,
+                time: Time::new(t),
+                x: self.state.after(&increment).rounded(),
+                region: self.region,
+            };
+            self.observer.output(&point);
+        }
+        Ok(())
     }
 }

@@ -1,10 +1,10 @@
 //! A test for every system: crossings and states against the exact solution, at two step sizes,
-//! so that the order of both is seen.
+//! so that the order of both is seen, and by Taylor's method at several tolerances.
 
 use std::ops::ControlFlow;
 
 use crate::accurate;
-use crate::problem::{Crossed, Problem, Run, Sink};
+use crate::problem::{Crossed, Method, Problem, Run, Sink};
 use crate::reference::Reference;
 use crate::registry;
 
@@ -14,6 +14,11 @@ const T_END: f64 = 100.0;
 const RATIO: std::ops::Range<f64> = 3.8..4.2;
 /// Below this an error is rounding, and so is its ratio.
 const ROUNDING: f64 = 1e-11;
+
+/// Of Taylor's method.
+const TOLERANCES: [f64; 4] = [1e-4, 1e-8, 1e-12, 1e-15];
+/// The errors of a few hundred steps, and what the flows make of them until the end.
+const GROWTH: f64 = 1e3;
 
 #[derive(Default)]
 struct Collector {
@@ -36,8 +41,9 @@ impl Sink for Collector {
     }
 }
 
-fn solve(problem: &dyn Problem, step_size: f64, times: &[f64]) -> Collector {
+fn solve(problem: &dyn Problem, method: Method, step_size: f64, times: &[f64]) -> Collector {
     let run = Run {
+        method,
         step_size,
         t_end: *times.last().unwrap(),
         output_times: times.to_vec(),
@@ -79,8 +85,8 @@ struct Exact {
 fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
     let name = problem.card().name;
     let times: Vec<f64> = exact.samples.iter().map(|(t, _)| *t).collect();
-    let coarse = solve(problem, step_size, &times);
-    let fine = solve(problem, 0.5 * step_size, &times);
+    let coarse = solve(problem, Method::SYMMETRIC, step_size, &times);
+    let fine = solve(problem, Method::SYMMETRIC, 0.5 * step_size, &times);
     assert_eq!(coarse.crossings.len(), exact.count, "{name}");
     assert_eq!(fine.crossings.len(), exact.count, "{name}");
     let numerical = coarse.crossings.iter().zip(&fine.crossings);
@@ -93,6 +99,37 @@ fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
     for ((t, exact), (coarse, fine)) in exact.samples.iter().zip(numerical) {
         let (coarse, fine) = (distance(coarse, exact), distance(fine, exact));
         assert_order_two(coarse, fine, &format!("{name}: state at {t}"));
+    }
+    for tolerance in TOLERANCES {
+        assert_reaches(problem, tolerance, &times, exact);
+    }
+}
+
+/// As many crossings, into the same regions, their times and the states with errors of about
+/// the tolerance of Taylor's method.
+fn assert_reaches(problem: &dyn Problem, tolerance: f64, times: &[f64], exact: &Exact) {
+    let name = problem.card().name;
+    let solution = solve(problem, Method::Taylor { tolerance }, 1.0, times);
+    let largest = GROWTH * tolerance;
+    assert_eq!(
+        solution.crossings.len(),
+        exact.count,
+        "{name}, {tolerance:e}"
+    );
+    for (&(t, region), crossing) in exact.crossings.iter().zip(&solution.crossings) {
+        let error = (crossing.0 - t).abs();
+        assert_eq!(crossing.1, region, "{name}, {tolerance:e}");
+        assert!(
+            error < largest,
+            "{name}, {tolerance:e}: crossing at {t}: {error:e}"
+        );
+    }
+    for ((t, exact), state) in exact.samples.iter().zip(&solution.states) {
+        let error = distance(state, exact);
+        assert!(
+            error < largest,
+            "{name}, {tolerance:e}: state at {t}: {error:e}"
+        );
     }
 }
 

@@ -4,6 +4,7 @@ mod crossings;
 mod ends;
 mod points;
 mod starts;
+mod taylor;
 
 use dmm_runtime::{InitialValueProblem, Integrator, NewtonLocator, Symmetric, System, pws};
 

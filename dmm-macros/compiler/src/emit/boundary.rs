@@ -9,6 +9,7 @@ use quote::quote;
 use super::function::{Arguments, Functions};
 use super::lower::{Lowered, size};
 use super::paths;
+use super::series::{Series, States};
 use super::store::{Store, constructor_impl};
 use super::system::Emission;
 use crate::algebra::{Dag, Id, Name};
@@ -143,6 +144,7 @@ fn implementation(
             quote!((#by_time, #gradient))
         })
     });
+    let series = series(functions, nodes);
     let unknown = quote! {(
         #scalar::from_f64(f64::NAN),
         #vector::<#scalar, #states>::from_element(#scalar::from_f64(f64::NAN)),
@@ -174,6 +176,42 @@ fn implementation(
             fn switching_gradient(&self, #point) -> (#scalar, #vector<#scalar, #states>) {
                 #gradient
             }
+            #series
+        }
+    }
+}
+
+/// The recurrences of the Taylor coefficients of every g.
+fn series(functions: &Functions<'_>, nodes: &[Nodes]) -> TokenStream {
+    let Functions {
+        lowered,
+        store,
+        scalar,
+        states,
+    } = *functions;
+    let roots: Vec<Id> = nodes.iter().map(|nodes| nodes.value).collect();
+    let first = roots.len();
+    let series = Series::new(lowered, store, scalar, states, States::Given, &roots, first);
+    let slots = paths::count(first + series.slots());
+    let unrolled = series.unrolled();
+    let body = series.body(None, |values| {
+        let places = (0..values.len()).map(paths::count);
+        quote!(#(series[#places][at] = #values;)*)
+    });
+    quote! {
+        type Series<const P: usize> = [[#scalar; P]; #slots];
+        type Unrolled = #unrolled;
+        /// No coefficients yet.
+        #[inline]
+        fn series<const P: usize>() -> Self::Series<P> {
+            [[#scalar::from_f64(0.0); P]; #slots]
+        }
+        /// The coefficients of order k of every g along the series of the states.
+        #[inline(always)]
+        fn advance<K: dmm::series::Order, const P: usize>(
+            &self, k: K, t: #scalar, states: &[[#scalar; P]], series: &mut Self::Series<P>
+        ) {
+            #body
         }
     }
 }

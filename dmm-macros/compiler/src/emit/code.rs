@@ -117,6 +117,28 @@ impl<'a> Block<'a> {
         }
     }
 
+    /// Whether a node has more than one use.
+    pub(super) fn is_shared(&self, id: Id) -> bool {
+        self.uses.get(&id).is_some_and(|&uses| uses > 1)
+    }
+
+    /// Gives `id` the value of `tokens`, under a name.
+    pub(super) fn define(&mut self, id: Id, tokens: &TokenStream) {
+        let name = self.name(id);
+        self.statements.push(quote!(let #name = #tokens;));
+        self.expressions.insert(id, Expression::atom(quote!(#name)));
+    }
+
+    /// Gives the value of `id` a name, if it has none.
+    pub(super) fn name_value(&mut self, id: Id) {
+        self.compute(&[id]);
+        let expression = &self.expressions[&id];
+        if expression.operations > 0 {
+            let tokens = expression.tokens.clone();
+            self.define(id, &tokens);
+        }
+    }
+
     /// The value of a root that was computed.
     pub(super) fn value(&self, root: Id) -> TokenStream {
         self.expressions

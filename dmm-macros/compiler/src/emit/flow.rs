@@ -12,6 +12,7 @@ use super::lower::Lowered;
 use super::methods::{point_functions, step_functions};
 use super::nodes::Nodes;
 use super::paths;
+use super::series::{Series, States};
 use super::store::{Store, constructor_impl};
 use super::system::Emission;
 use crate::scheme::Solvability;
@@ -92,6 +93,7 @@ fn implementation(
     let boundary = boundary(emission, region);
     let point = point_functions(functions, nodes, scalar);
     let step = step_functions(functions, &nodes.discrete, scalar);
+    let series = series(functions, nodes);
     quote! {
         #[automatically_derived]
         impl<#scalar: #bound> #flow<#scalar, #states, #conserved> for #name<#scalar> {
@@ -100,6 +102,50 @@ fn implementation(
             #boundary
             #point
             #step
+            #series
+        }
+    }
+}
+
+/// The recurrences of the Taylor coefficients of the solution.
+fn series(functions: &Functions<'_>, nodes: &Nodes) -> TokenStream {
+    let Functions {
+        lowered,
+        store,
+        scalar,
+        states,
+    } = *functions;
+    let series = Series::new(
+        lowered,
+        store,
+        scalar,
+        states,
+        States::Own,
+        &nodes.field,
+        states.len(),
+    );
+    let slots = paths::count(states.len() + series.slots());
+    let unrolled = series.unrolled();
+    let step = quote!(dmm::series::step::<#scalar, K>(k));
+    let body = series.body(Some(&step), |values| {
+        let places = (0..values.len()).map(paths::count);
+        quote!(#(series[#places][at + 1] = #values;)*)
+    });
+    quote! {
+        type Series<const P: usize> = [[#scalar; P]; #slots];
+        type Unrolled = #unrolled;
+        /// No coefficients yet.
+        #[inline]
+        fn series<const P: usize>() -> Self::Series<P> {
+            [[#scalar::from_f64(0.0); P]; #slots]
+        }
+        /// The coefficients of order k + 1 of the solution, and those of order k of what it is
+        /// made from.
+        #[inline(always)]
+        fn advance<K: dmm::series::Order, const P: usize>(
+            &self, k: K, t: #scalar, series: &mut Self::Series<P>
+        ) {
+            #body
         }
     }
 }

@@ -18,6 +18,7 @@ mod nodes;
 mod operations;
 mod paths;
 mod readable;
+mod series;
 mod store;
 mod system;
 

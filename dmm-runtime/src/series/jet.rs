@@ -1,0 +1,172 @@
+//! The Taylor polynomial of a solution at a point, and of the switching functions along it.
+
+use super::polynomial::{increment, inverse_exponent, inverse_root};
+use super::{Coefficients, Order, Unroll};
+use crate::system::{Boundary, Flow, Vector};
+
+/// The coefficients of g that decide whether an interface can be reached.
+pub(crate) const LOOK: usize = 5;
+
+/// The coefficients of a flow's solution at a point, P of each component.
+pub(crate) struct Jet<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> {
+    order: usize,
+    solution: F::Series<P>,
+    switching: <F::Boundary as Boundary<f64, N>>::Series<P>,
+}
+
+/// The solution's series as it advances.
+struct Solution<'a, F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> {
+    flow: &'a F,
+    t: f64,
+    series: &'a mut F::Series<P>,
+}
+
+impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Coefficients
+    for Solution<'_, F, N, M, P>
+{
+    #[inline(always)]
+    fn advance<K: Order>(&mut self, k: K) {
+        self.flow.advance(k, self.t, self.series);
+    }
+}
+
+/// The series of the switching functions as they advance.
+struct Switching<'a, F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> {
+    flow: &'a F,
+    t: f64,
+    jet: &'a mut Jet<F, N, M, P>,
+}
+
+impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Coefficients
+    for Switching<'_, F, N, M, P>
+{
+    #[inline(always)]
+    fn advance<K: Order>(&mut self, k: K) {
+        let Jet {
+            solution,
+            switching,
+            ..
+        } = &mut *self.jet;
+        let states = &solution.as_ref()[..N];
+        let boundary = self.flow.boundary();
+        boundary.advance(k, self.t, states, switching);
+    }
+}
+
+impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, N, M, P> {
+    /// Room for the coefficients up to `order`; those above stay zero.
+    pub(crate) fn new(order: usize) -> Self {
+        Self {
+            order,
+            solution: F::series(),
+            switching: F::Boundary::series(),
+        }
+    }
+
+    /// The solution's coefficients at (t, x).
+    #[inline(never)]
+    pub(crate) fn expand(&mut self, flow: &F, t: f64, x: &Vector<f64, N>) {
+        let series = &mut self.solution;
+        for (component, &x) in series.as_mut().iter_mut().zip(x) {
+            component[0] = x;
+        }
+        let end = self.order + 1;
+        F::Unrolled::run::<0, P, 1, _>(&mut Solution { flow, t, series }, end);
+    }
+
+    /// The first [`LOOK`] coefficients of every switching function.
+    #[inline(always)]
+    pub(crate) fn expand_switching(&mut self, flow: &F, t: f64) {
+        type Unrolled<F, const N: usize, const M: usize> =
+            <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Unrolled;
+        Unrolled::<F, N, M>::run::<0, LOOK, 0, _>(&mut Switching { flow, t, jet: self }, LOOK);
+    }
+
+    /// The other coefficients of every switching function.
+    pub(crate) fn finish_switching(&mut self, flow: &F, t: f64) {
+        let end = self.order + 1;
+        super::Rolled::run::<LOOK, P, 0, _>(&mut Switching { flow, t, jet: self }, end);
+    }
+
+    /// The coefficients of g.
+    #[inline(always)]
+    pub(crate) fn switching(&self, interface: usize) -> &[f64; P] {
+        &self.switching.as_ref()[interface]
+    }
+
+    /// The first coefficients of g.
+    #[inline(always)]
+    pub(crate) fn first_switching(&self, interface: usize) -> [f64; LOOK] {
+        let c = self.switching(interface);
+        std::array::from_fn(|k| c[k])
+    }
+
+    /// The step over `fraction` of the radius of convergence, which the root test on the last
+    /// two coefficients estimates.
+    ///
+    /// Each component counts relative to |x₀| + |x₁| h with the step h `before`, so that neither
+    /// its zeros nor its unit matter; where there was none, relative to the largest component.
+    #[inline(always)]
+    pub(crate) fn step(&self, fraction: f64, before: f64) -> f64 {
+        let order = self.order();
+        if before == 0.0 {
+            return fraction * self.first_radius();
+        }
+        let (mut last, mut second) = (0.0f64, 0.0f64);
+        for c in self.coefficients() {
+            let size = c[0].abs() + c[1].abs() * before;
+            let scale = 1.0 / size.max(f64::MIN_POSITIVE);
+            last = last.max(c[order].abs() * scale);
+            second = second.max(c[order - 1].abs() * scale);
+        }
+        fraction * radius(order, last, second)
+    }
+
+    #[inline(always)]
+    fn order(&self) -> usize {
+        if F::Unrolled::EXACT {
+            P - 1
+        } else {
+            self.order
+        }
+    }
+
+    /// The radius of convergence, relative to the largest component or, where they vanish, to
+    /// what the field makes of them in a unit of time.
+    #[cold]
+    fn first_radius(&self) -> f64 {
+        let largest = |k: usize| {
+            let coefficients = self.coefficients().iter();
+            coefficients.fold(0.0f64, |largest, c| largest.max(c[k].abs()))
+        };
+        let size = match largest(0) > 0.0 {
+            true => largest(0),
+            false => largest(1).max(f64::MIN_POSITIVE),
+        };
+        let order = self.order();
+        radius(order, largest(order) / size, largest(order - 1) / size)
+    }
+
+    /// xₖ by component.
+    #[inline(always)]
+    fn coefficients(&self) -> &[[f64; P]] {
+        &self.solution.as_ref()[..N]
+    }
+
+    /// Σ xⱼ hʲ over j ≥ 1.
+    #[inline(always)]
+    pub(crate) fn increment(&self, h: f64) -> Vector<f64, N> {
+        let mut sum = Vector::<f64, N>::zeros();
+        for (sum, series) in sum.iter_mut().zip(self.coefficients()) {
+            *sum = increment(series, h);
+        }
+        sum
+    }
+}
+
+/// The smaller of cₖ^(−1/k) for the last two coefficients.
+#[inline(always)]
+fn radius(order: usize, last: f64, second: f64) -> f64 {
+    let last = inverse_root(last, inverse_exponent(order));
+    last.min(inverse_root(second, inverse_exponent(order - 1)))
+}

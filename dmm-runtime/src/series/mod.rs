@@ -1,0 +1,223 @@
+//! Power series: the recurrences for their coefficients that generated code is made of.
+//!
+//! A function u(t₀ + h) = Σ uₖ hᵏ is the array of its P coefficients. Each function here gives
+//! coefficient k of a result from coefficients up to k of the arguments and up to k − 1 of the
+//! result itself (Jorba & Zou, Experimental Mathematics 14, 2005, proposition 2.1). So all
+//! series of a system advance together, one order at a time.
+//!
+//! The order is an [`Order`]: a constant of the type, so that the sums are unrolled into
+//! straight-line code, or a number.
+
+pub(crate) mod jet;
+pub(crate) mod polynomial;
+#[cfg(test)]
+mod tests;
+mod unroll;
+
+pub use unroll::{Choice, Coefficients, Rolled, Straight, Unroll};
+
+use crate::scalar::Scalar;
+
+/// The index k of a coefficient.
+pub trait Order: Copy {
+    /// k
+    fn get(self) -> usize;
+}
+
+/// An order known at compile time.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<const K: usize>;
+
+impl<const K: usize> Order for Fixed<K> {
+    #[inline(always)]
+    fn get(self) -> usize {
+        K
+    }
+}
+
+impl Order for usize {
+    #[inline(always)]
+    fn get(self) -> usize {
+        self
+    }
+}
+
+/// Largest number of coefficients.
+pub(crate) const MOST_COEFFICIENTS: usize = 25;
+
+/// 1/k
+const INVERSE: [f64; MOST_COEFFICIENTS + 1] = {
+    let mut inverse = [0.0; MOST_COEFFICIENTS + 1];
+    let mut k = 1;
+    while k <= MOST_COEFFICIENTS {
+        inverse[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverse
+};
+
+/// 1/k, for k ≥ 1.
+#[inline(always)]
+fn inverse<S: Scalar>(k: usize) -> S {
+    S::from_f64(INVERSE[k])
+}
+
+/// 1/(k + 1): what turns a coefficient of ẋ into the next one of x.
+#[inline(always)]
+pub fn step<S: Scalar, K: Order>(k: K) -> S {
+    inverse(k.get() + 1)
+}
+
+/// Coefficient k of u + c.
+#[inline(always)]
+pub fn plus<S: Scalar, K: Order>(k: K, u: S, c: S) -> S {
+    if k.get() == 0 { u + c } else { u }
+}
+
+/// Coefficient k of the constant c.
+#[inline(always)]
+pub fn constant<S: Scalar, K: Order>(k: K, c: S) -> S {
+    if k.get() == 0 { c } else { S::from_f64(0.0) }
+}
+
+/// Coefficient k of the time, which is t at the start.
+#[inline(always)]
+pub fn time<S: Scalar, K: Order>(k: K, t: S) -> S {
+    match k.get() {
+        0 => t,
+        1 => S::from_f64(1.0),
+        _ => S::from_f64(0.0),
+    }
+}
+
+/// Coefficient k of k uₖ, of h du/dh.
+#[inline(always)]
+pub fn derivative<S: Scalar, K: Order>(k: K, u: S) -> S {
+    S::from_f64(k.get() as f64) * u
+}
+
+/// Coefficient k of uv. The newest coefficients enter last, so that the sum of the others need
+/// not wait for them.
+#[inline(always)]
+pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]) -> S {
+    let k = k.get();
+    let mut sum = if k.is_multiple_of(2) {
+        u[k / 2] * v[k / 2]
+    } else {
+        let j = k / 2;
+        u[j].fused(v[j + 1], u[j + 1] * v[j])
+    };
+    for j in (0..k.div_ceil(2) - k % 2).rev() {
+        sum = u[j].fused(v[k - j], u[k - j].fused(v[j], sum));
+    }
+    sum
+}
+
+/// Coefficient k of u².
+#[inline(always)]
+pub fn square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
+    let half = half_square(k, u);
+    half + half
+}
+
+/// Coefficient k of u²/2.
+#[inline(always)]
+pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
+    let k = k.get();
+    let mut sum = if k.is_multiple_of(2) {
+        u[k / 2] * S::from_f64(0.5) * u[k / 2]
+    } else {
+        u[k / 2] * u[k / 2 + 1]
+    };
+    for j in (0..k.div_ceil(2) - k % 2).rev() {
+        sum = u[j].fused(u[k - j], sum);
+    }
+    sum
+}
+
+/// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k
+#[inline(always)]
+fn inner<S: Scalar, const P: usize>(k: usize, a: &[S; P], b: &[S; P]) -> S {
+    let mut sum = S::from_f64(0.0);
+    for j in 1..k {
+        sum = a[j].fused(b[k - j], sum);
+    }
+    sum
+}
+
+/// Coefficient k of w = u/v from uₖ; `inverse` is 1/v₀.
+#[inline(always)]
+pub fn quotient<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    u: S,
+    v: &[S; P],
+    w: &[S; P],
+    inverse: S,
+) -> S {
+    let k = k.get();
+    if k == 0 {
+        return u * inverse;
+    }
+    let rest = u - inner(k, v, w);
+    (-v[k]).fused(w[0], rest) * inverse
+}
+
+/// Coefficient k ≥ 1 of w = √u from uₖ; `inverse` is 1/(2w₀).
+#[inline(always)]
+pub fn square_root<S: Scalar, K: Order, const P: usize>(k: K, u: S, w: &[S; P], inverse: S) -> S {
+    let k = k.get();
+    let mut sum = S::from_f64(0.0);
+    for j in 1..k.div_ceil(2) {
+        sum = w[j].fused(w[k - j], sum);
+    }
+    sum += sum;
+    if k.is_multiple_of(2) {
+        sum = w[k / 2].fused(w[k / 2], sum);
+    }
+    (u - sum) * inverse
+}
+
+/// Coefficient k ≥ 1 of w = u^a; `inverse` is 1/u₀.
+#[inline(always)]
+pub fn power<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    u: &[S; P],
+    a: S,
+    w: &[S; P],
+    inverse_base: S,
+) -> S {
+    let k = k.get();
+    let mut sum = S::from_f64(0.0);
+    for j in 0..k {
+        let weight = a * S::from_f64((k - j) as f64) - S::from_f64(j as f64);
+        sum = (weight * w[j]).fused(u[k - j], sum);
+    }
+    sum * (inverse_base * inverse(k))
+}
+
+/// Coefficient k ≥ 1 of ∫ v du from d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …
+#[inline(always)]
+pub fn integral<S: Scalar, K: Order, const P: usize>(k: K, d: &[S; P], v: &[S; P]) -> S {
+    let k = k.get();
+    let sum = inner(k, d, v);
+    d[k].fused(v[0], sum) * inverse(k)
+}
+
+/// Coefficient k ≥ 1 of e = d/v from dₖ, where e₀ = 0 and `inverse` is 1/v₀: with
+/// d = h du/dh that is h dw/dh of w = ∫ du/v, of ln u with v = u, of atan u with v = 1 + u² …
+#[inline(always)]
+pub fn slope<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    d: S,
+    v: &[S; P],
+    e: &[S; P],
+    inverse: S,
+) -> S {
+    (d - inner(k.get(), e, v)) * inverse
+}
+
+/// Coefficient k ≥ 1 of w from e = h dw/dh.
+#[inline(always)]
+pub fn antiderivative<S: Scalar, K: Order>(k: K, e: S) -> S {
+    e * inverse(k.get())
+}

@@ -1,0 +1,100 @@
+//! Recurrences against the identities that define their functions.
+
+use super::*;
+
+const P: usize = 25;
+
+/// A series with coefficients like those of a function with the radius of convergence 2.
+fn sample(seed: u64) -> [f64; P] {
+    let mut state = seed;
+    std::array::from_fn(|k| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        let unit = (state >> 11) as f64 / (1u64 << 53) as f64;
+        (0.5 + unit) * 0.5f64.powi(k as i32)
+    })
+}
+
+/// The series that `coefficient` gives from the coefficients below.
+fn series(start: f64, coefficient: impl Fn(usize, &[f64; P]) -> f64) -> [f64; P] {
+    let mut w = [0.0; P];
+    w[0] = start;
+    for k in 1..P {
+        w[k] = coefficient(k, &w);
+    }
+    w
+}
+
+/// h du/dh
+fn derived(u: &[f64; P]) -> [f64; P] {
+    std::array::from_fn(|k| derivative(k, u[k]))
+}
+
+fn assert_close(a: &[f64; P], b: &[f64; P]) {
+    for k in 0..P {
+        // sums of 25 products, of series that fall off like 2⁻ᵏ
+        let tolerance = 1e-12 * 0.5f64.powi(k as i32);
+        assert!((a[k] - b[k]).abs() <= tolerance, "{k}: {} {}", a[k], b[k]);
+    }
+}
+
+fn times(u: &[f64; P], v: &[f64; P]) -> [f64; P] {
+    std::array::from_fn(|k| product(k, u, v))
+}
+
+#[test]
+fn a_product_is_the_sum_of_all_products() {
+    let (u, v) = (sample(1), sample(2));
+    let plain = |u: &[f64; P], v: &[f64; P]| {
+        std::array::from_fn(|k| (0..=k).map(|j| u[j] * v[k - j]).sum::<f64>())
+    };
+    assert_close(&times(&u, &v), &plain(&u, &v));
+    assert_close(&std::array::from_fn(|k| square(k, &u)), &plain(&u, &u));
+}
+
+#[test]
+fn quotients_roots_and_powers_are_inverse_to_products() {
+    let (u, v) = (sample(3), sample(4));
+    let w = series(u[0] / v[0], |k, w| quotient(k, u[k], &v, w, 1.0 / v[0]));
+    assert_close(&times(&w, &v), &u);
+    let w = series(u[0].sqrt(), |k, w| {
+        square_root(k, u[k], w, 0.5 / u[0].sqrt())
+    });
+    assert_close(&times(&w, &w), &u);
+    let power_of = |a: f64| series(u[0].powf(a), |k, w| power(k, &u, a, w, 1.0 / u[0]));
+    assert_close(&times(&power_of(0.3), &power_of(0.7)), &u);
+}
+
+#[test]
+fn the_logarithm_is_inverse_to_the_exponential() {
+    let u = sample(5);
+    let d = derived(&u);
+    let w = series(u[0].exp(), |k, w| integral(k, &d, w));
+    let dw = derived(&w);
+    let e = series(0.0, |k, e| slope(k, dw[k], &w, e, 1.0 / w[0]));
+    let ln = series(w[0].ln(), |k, _| antiderivative(k, e[k]));
+    assert_close(&ln, &u);
+}
+
+#[test]
+fn sine_and_cosine_lie_on_the_circle() {
+    let u = sample(6);
+    let d = derived(&u);
+    let (mut s, mut c) = ([0.0; P], [0.0; P]);
+    (s[0], c[0]) = u[0].sin_cos();
+    for k in 1..P {
+        (s[k], c[k]) = (integral(k, &d, &c), -integral(k, &d, &s));
+    }
+    let one = std::array::from_fn(|k| square(k, &s) + square(k, &c));
+    assert_close(&one, &std::array::from_fn(|k| constant(k, 1.0)));
+}
+
+#[test]
+fn an_order_may_be_a_constant_or_a_number() {
+    let (u, v) = (sample(7), sample(8));
+    assert_eq!(product(Fixed::<9>, &u, &v), product(9, &u, &v));
+    assert_eq!(half_square(Fixed::<8>, &u), half_square(8, &u));
+    assert_eq!([time(0, 3.0), time(1, 3.0), time(2, 3.0)], [3.0, 1.0, 0.0]);
+    assert_eq!([plus(0, 2.0, 5.0), plus(3, 2.0, 5.0)], [7.0, 2.0]);
+}

@@ -1,0 +1,113 @@
+//! One order after the other: as straight-line code, or in a loop.
+
+use super::Order;
+
+/// Something whose series advance by one order at a time.
+pub trait Coefficients {
+    /// Computes the coefficients of order `k`, from those below.
+    fn advance<K: Order>(&mut self, k: K);
+}
+
+/// Something to be done with series of P coefficients.
+pub trait Choice {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn with<const P: usize>(self) -> Self::Output;
+}
+
+/// How [`Coefficients`] advance.
+pub trait Unroll {
+    /// Whether there are P coefficients for the order P − 1 only, and not for lower ones too.
+    const EXACT: bool;
+
+    /// Does `choice` with room for the coefficients up to `order`.
+    fn choose<C: Choice>(order: usize, choice: C) -> C::Output;
+
+    /// Advances through the orders k with FROM ≤ k and k + LESS < TO; `end` takes the place of
+    /// TO where it is lower.
+    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
+        series: &mut C,
+        end: usize,
+    );
+}
+
+/// A loop: for systems whose straight-line code would be too large.
+#[derive(Clone, Copy, Debug)]
+pub struct Rolled;
+
+impl Unroll for Rolled {
+    const EXACT: bool = false;
+
+    #[inline]
+    fn choose<C: Choice>(_order: usize, choice: C) -> C::Output {
+        choice.with::<25>()
+    }
+
+    #[inline]
+    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
+        series: &mut C,
+        end: usize,
+    ) {
+        for k in FROM..end.min(TO) - LESS {
+            series.advance(k);
+        }
+    }
+}
+
+/// Straight-line code for each of a few orders, more than twice as fast; a loop where nothing
+/// is optimised.
+#[derive(Clone, Copy, Debug)]
+pub struct Straight;
+
+#[cfg(debug_assertions)]
+impl Unroll for Straight {
+    const EXACT: bool = Rolled::EXACT;
+
+    fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
+        Rolled::choose(order, choice)
+    }
+
+    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
+        series: &mut C,
+        end: usize,
+    ) {
+        Rolled::run::<FROM, TO, LESS, C>(series, end);
+    }
+}
+
+/// `series.advance(Fixed::<K>)` for every listed K in `FROM..TO − LESS`.
+#[cfg(not(debug_assertions))]
+macro_rules! orders {
+    ($series:ident, $from:ident, $to:ident, $less:ident: $($k:literal)*) => {$(
+        if const { $from <= $k && $k + $less < $to } {
+            $series.advance(super::Fixed::<$k>);
+        }
+    )*};
+}
+
+#[cfg(not(debug_assertions))]
+impl Unroll for Straight {
+    const EXACT: bool = true;
+
+    #[inline]
+    fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
+        match order {
+            8 => choice.with::<9>(),
+            12 => choice.with::<13>(),
+            16 => choice.with::<17>(),
+            20 => choice.with::<21>(),
+            _ => choice.with::<25>(),
+        }
+    }
+
+    #[inline(always)]
+    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
+        series: &mut C,
+        _end: usize,
+    ) {
+        orders!(series, FROM, TO, LESS:
+            0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24);
+    }
+}
