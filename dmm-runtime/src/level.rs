@@ -21,11 +21,15 @@ pub(crate) struct Level<const N: usize, const M: usize> {
     reference: Vector<f64, M>,
     /// D
     damping: Vector<f64, M>,
+    /// Residuals beyond these are no rounding errors, and not damped.
+    noise: Vector<f64, M>,
 }
 
 impl<const N: usize, const M: usize> Level<N, M> {
     /// σ: rounding errors of ψ move the state by a few units in its last place.
     const SLOPE: f64 = 1.0 / 16.0;
+    /// Rounding errors of ψ are below so many units of its terms.
+    const NOISE: f64 = 16.0 * f64::EPSILON;
 
     /// The level at the entry into a region.
     pub(crate) fn enter<F: Flow<f64, N, M>>(flow: &F, time: Time, state: &State<N>) -> Self {
@@ -33,6 +37,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         let mut level = Self {
             reference: psi + multiplier * remainder(flow, time, state),
             damping: Vector::zeros(),
+            noise: Vector::zeros(),
         };
         level.rescale(flow, time.value, state);
         level
@@ -43,6 +48,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         let scale = Self::SLOPE / state.x.norm().max(f64::MIN_POSITIVE);
         let size = flow.conserved_size(t, &state.x);
         self.damping = size.map(|size| (size * scale).powi(2) + f64::MIN_POSITIVE);
+        self.noise = size * Self::NOISE;
     }
 
     /// The displacement δx towards the level.
@@ -58,11 +64,20 @@ impl<const N: usize, const M: usize> Level<N, M> {
         }
         let (psi, multiplier) = flow.multiplier(time.value, &state.x);
         let residual = (psi - self.reference) + multiplier * remainder(flow, time, state);
+        let damping = self
+            .damping
+            .zip_zip_map(&residual, &self.noise, |damping, r, noise| {
+                if r.abs() > noise {
+                    f64::MIN_POSITIVE
+                } else {
+                    damping
+                }
+            });
         if M == 1 {
             let row = multiplier.row(0);
-            return row.transpose() * (-residual[0] / (row.norm_squared() + self.damping[0]));
+            return row.transpose() * (-residual[0] / (row.norm_squared() + damping[0]));
         }
-        -MinimalNorm::new(&multiplier, &multiplier).damped(&residual, &self.damping)
+        -MinimalNorm::new(&multiplier, &multiplier).damped(&residual, &damping)
     }
 
     /// The state that a step has come to, put back on the level if it `corrects`.
@@ -74,10 +89,10 @@ impl<const N: usize, const M: usize> Level<N, M> {
         state: State<N>,
         corrects: bool,
     ) -> State<N> {
-        /// ψ is linear, as far as a double can tell, over so small a part of the state.
-        const SMALL: f64 = 1e-9;
-        /// The error falls to its square each time: from 10⁻¹ to 10⁻¹⁶.
-        const MOST: u32 = 5;
+        /// So small a part of the state is a rounding error.
+        const SMALL: f64 = 1e-15;
+        /// The error falls to its square each time, and then to the part that damping leaves.
+        const MOST: u32 = 8;
         let mut state = state.normalised();
         if M == 0 || !corrects {
             return state;

@@ -17,6 +17,7 @@ mod operation;
 mod pattern;
 mod rules;
 mod saturate;
+mod selection;
 mod snapshot;
 mod table;
 
@@ -28,10 +29,11 @@ use std::collections::HashMap;
 use egg::{Id, Language};
 
 use constants::Constants;
-use extract::{Selection, cheapest};
+use extract::cheapest;
 use form::{Form, Results};
 use operation::{Operation, Symbol};
 use saturate::Saturation;
+use selection::Selection;
 use table::{Class, Node, Table};
 
 use crate::algebra::{BuildQuick, Dag, Math};

@@ -4,11 +4,11 @@ use std::ops::RangeInclusive;
 
 use egg::{Id, Language};
 
-use super::extract::NOTHING;
 use super::form::Form;
 use super::graph::{Facts, Graph};
 use super::pattern::Match;
 use super::rules::RULES;
+use super::selection::NOTHING;
 use super::snapshot::Snapshot;
 use super::table::{Node, Table};
 

@@ -64,7 +64,8 @@ pub(crate) fn check(text: &str) -> (Duration, Result<Outcome, Failure>) {
     (time, outcome)
 }
 
-/// The output is Rust, says with a code of the catalogue what is wrong, and is the same again.
+/// The output is Rust, says with a code of the catalogue what is wrong with the declaration, and
+/// is the same again.
 fn examine(tokens: TokenStream, output: &TokenStream) -> Result<Outcome, Failure> {
     let wrong = |message: String| Err(Failure::Wrong(message));
     if let Err(error) = syn::parse2::<syn::File>(output.clone()) {
@@ -73,6 +74,10 @@ fn examine(tokens: TokenStream, output: &TokenStream) -> Result<Outcome, Failure
     let errors = compile_errors(output);
     if let Some(message) = uncatalogued(&errors) {
         return wrong(format!("without a code of the catalogue: {message}"));
+    }
+    let is_internal = |message: &&String| message.starts_with("internal error");
+    if let Some(message) = errors.iter().find(is_internal) {
+        return wrong(message.clone());
     }
     let text = output.to_string();
     // what compiles takes the longest: one in eight is compiled again

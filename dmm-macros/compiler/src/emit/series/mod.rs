@@ -46,7 +46,8 @@ enum Slot {
     Derivative(Id),
     /// h dw/dh of w = ∫ du/v.
     Slope(Id),
-    /// v of w = ∫ v du or ∫ du/v: of a sine the cosine and the other way round.
+    /// v of w = ∫ v du or ∫ du/v: of a sine the cosine and the other way round. Of a power
+    /// w = u^v those of ln u and of h d(v ln u)/dh.
     Partner(Function, Id),
     /// The reciprocal that a recurrence multiplies by, in the first place.
     Inverse(Id),
@@ -140,6 +141,14 @@ impl<'a> Series<'a> {
             Math::Pow([a, b]) if self.is_moving(a) && !self.is_moving(b) => {
                 vec![Node(a), Node(id), Inverse(id)]
             }
+            // u^v = e^(v ln u)
+            Math::Pow([a, b]) if self.is_moving(b) => {
+                let mut slots = vec![Node(id), Inverse(id), Partner(Function::Exp, id)];
+                if self.is_moving(a) {
+                    slots.extend([Node(a), Node(b), Slope(id), Partner(Function::Ln, id)]);
+                }
+                slots
+            }
             Math::Call(function, a) => match function {
                 Function::Sqrt => vec![Node(id), Inverse(id)],
                 Function::Exp => vec![Node(id), Derivative(a)],
@@ -167,7 +176,6 @@ impl<'a> Series<'a> {
                     Slope(id),
                     Inverse(id),
                 ],
-                Function::Abs => vec![Inverse(id)],
                 _ => Vec::new(),
             },
             _ => Vec::new(),

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::Slot;
-use super::writer::{Writer, factor, minus};
+use super::writer::{Writer, factor, minus, product};
 use crate::algebra::{Function, Id};
 
 impl Writer<'_, '_> {
@@ -47,6 +47,34 @@ impl Writer<'_, '_> {
             _ => quote!(#scalar::powf(#u[0], #exponent)),
         };
         quote!(if at == 0 { #start } else { #rest })
+    }
+
+    /// u^v = e^(v ln u), v changing with the time.
+    pub(super) fn variable_power(&mut self, id: Id, a: Id, b: Id) -> TokenStream {
+        let (series, scalar) = (self.series, self.series.scalar);
+        let d = series.slot(Slot::Partner(Function::Exp, id));
+        let w = series.slot(Slot::Node(id));
+        let exponent = self.coefficient(b);
+        let (base, logarithm_times) = if series.is_moving(a) {
+            let [u, v] = [a, b].map(|one| series.slot(Slot::Node(one)));
+            let ln = series.slot(Slot::Partner(Function::Ln, id));
+            let start = quote!(#scalar::ln(#u[0]));
+            let value = self.primitive(id, a, &u, start, false);
+            self.block.push(quote!(#ln[at] = #value;));
+            (
+                quote!(#u[0]),
+                Self::call("product", &[quote!(&#v), quote!(&#ln)]),
+            )
+        } else {
+            let (base, slot) = (self.fixed(a), series.slot(Slot::Inverse(id)));
+            self.block
+                .push(quote!(if at == 0 { #slot[0] = #scalar::ln(#base); }));
+            (base, product(&exponent, &quote!(#slot[0])))
+        };
+        let value = Self::call("derivative", &[logarithm_times]);
+        self.block.push(quote!(#d[at] = #value;));
+        let later = Self::call("integral", &[quote!(&#d), quote!(&#w)]);
+        quote!(if at == 0 { #scalar::powf(#base, #exponent) } else { #later })
     }
 
     /// h du/dh
@@ -133,17 +161,6 @@ impl Writer<'_, '_> {
                     #v[at] = if at == 0 { #scalar::sqrt(base) } else { #later };
                 });
                 return self.primitive(id, a, &v, start, function == Function::Acos);
-            }
-            Function::Abs => {
-                let slot = series.slot(Slot::Inverse(id));
-                self.block.push(quote! {
-                    if at == 0 {
-                        let is_negative = #value < #scalar::from_f64(0.0);
-                        #slot[0] = #scalar::from_f64(if is_negative { -1.0 } else { 1.0 });
-                    }
-                });
-                let value = factor(&value);
-                return quote!(#value * #slot[0]);
             }
             _ => return quote!(compile_error!("a function without a series")),
         };

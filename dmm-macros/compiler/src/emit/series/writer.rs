@@ -170,8 +170,9 @@ impl Writer<'_, '_> {
             }
             Math::Div([a, b]) if moving(b) => self.quotient(id, a, b),
             Math::Pow([a, b]) if !moving(b) => self.power(id, a, b),
+            Math::Pow([a, b]) => self.variable_power(id, a, b),
             Math::Call(function, a) => self.function(id, function, a),
-            Math::Pow(_) | Math::Pair(..) | Math::Pi | Math::Constant(_) => {
+            Math::Pair(..) | Math::Pi | Math::Constant(_) => {
                 quote!(compile_error!("an operation without a series"))
             }
             _ => return None,
