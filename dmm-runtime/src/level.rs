@@ -11,6 +11,7 @@
 //! rows that count are those that [`MinimalNorm`] keeps in the discrete vector field.
 
 use crate::minimal_norm::MinimalNorm;
+use crate::scalar::Scalar;
 use crate::state::State;
 use crate::system::{Flow, Vector};
 use crate::time::Time;
@@ -52,7 +53,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
     }
 
     /// The displacement δx towards the level.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn correction<F: Flow<f64, N, M>>(
         &self,
         flow: &F,
@@ -86,27 +87,49 @@ impl<const N: usize, const M: usize> Level<N, M> {
         &self,
         flow: &F,
         time: Time,
-        state: State<N>,
+        mut state: State<N>,
         corrects: bool,
     ) -> State<N> {
-        /// So small a part of the state is a rounding error.
-        const SMALL: f64 = 1e-15;
+        if M == 0 || !corrects {
+            return state.normalised();
+        }
+        let displacement = self.correction(flow, time, &state);
+        state.remainder += displacement;
+        state = state.normalised();
+        match is_coarse(&displacement, &state) {
+            true => self.corrected_again(flow, time, state),
+            false => state,
+        }
+    }
+
+    /// After a correction so large that its square is no rounding error.
+    #[inline(never)]
+    fn corrected_again<F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        time: Time,
+        mut state: State<N>,
+    ) -> State<N> {
         /// The error falls to its square each time, and then to the part that damping leaves.
         const MOST: u32 = 8;
-        let mut state = state.normalised();
-        if M == 0 || !corrects {
-            return state;
-        }
         for _ in 0..MOST {
             let displacement = self.correction(flow, time, &state);
             state.remainder += displacement;
             state = state.normalised();
-            if displacement.amax() <= SMALL * state.x.amax() {
+            if !is_coarse(&displacement, &state) {
                 break;
             }
         }
         state
     }
+}
+
+/// Whether the error of second order of a displacement is more than a rounding error.
+#[inline(always)]
+pub(crate) fn is_coarse<const N: usize>(displacement: &Vector<f64, N>, state: &State<N>) -> bool {
+    const SMALL: f64 = 1e-9;
+    let square = |v: &Vector<f64, N>| (0..N).fold(0.0, |sum, i| v[i].fused(v[i], sum));
+    square(displacement) > SMALL * SMALL * square(&state.x)
 }
 
 /// The state's remainder, as far as ψ is concerned with that of the time: ψ(t + δ, x) is

@@ -11,7 +11,7 @@ use crate::state::State;
 use crate::system::{Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
-use crate::walk::{SegmentEnd, Walk};
+use crate::walk::{Decay, SegmentEnd, Walk};
 
 /// Taylor's method
 ///
@@ -99,6 +99,7 @@ pub struct Progress {
     pub(crate) end: f64,
     /// The part of the radius of convergence that a step takes.
     pub(crate) fraction: f64,
+    pub(crate) decay: Decay,
     /// The size of the step before, or 0.
     pub(crate) step: f64,
     /// Transitions before this time belong to the step with this number.
@@ -196,6 +197,7 @@ impl Drive for Taylor {
         Progress {
             end: t_end,
             fraction: self.fraction(),
+            decay: Decay::new(self.fraction()),
             step: 0.0,
             window: (t0, 0),
         }

@@ -4,8 +4,8 @@ use super::polynomial::{increment, inverse_exponent, inverse_root};
 use super::{Coefficients, Order, Unroll};
 use crate::system::{Boundary, Flow, Vector};
 
-/// The coefficients of g that decide whether an interface can be reached.
-pub(crate) const LOOK: usize = 5;
+/// The coefficients of g that bound it between the ends of a step.
+pub(crate) const FIRST: usize = 6;
 
 /// The coefficients of a flow's solution at a point, P of each component.
 pub(crate) struct Jet<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> {
@@ -53,6 +53,26 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Coeffic
     }
 }
 
+/// The first coefficients of the switching functions as they advance.
+struct First<'a, F: Flow<f64, N, M>, const N: usize, const M: usize> {
+    flow: &'a F,
+    t: f64,
+    states: &'a [[f64; FIRST]; N],
+    series: <F::Boundary as Boundary<f64, N>>::Series<FIRST>,
+}
+
+impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Coefficients for First<'_, F, N, M> {
+    #[inline(always)]
+    fn advance<K: Order>(&mut self, k: K) {
+        let boundary = self.flow.boundary();
+        boundary.advance(k, self.t, self.states, &mut self.series);
+    }
+}
+
+/// How the series of a boundary advance.
+type BoundaryUnrolled<F, const N: usize, const M: usize> =
+    <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Unrolled;
+
 impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, N, M, P> {
     /// Room for the coefficients up to `order`; those above stay zero.
     pub(crate) fn new(order: usize) -> Self {
@@ -74,31 +94,39 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
         F::Unrolled::run::<0, P, 1, _>(&mut Solution { flow, t, series }, end);
     }
 
-    /// The first [`LOOK`] coefficients of every switching function.
+    /// The first coefficients of every switching function, `each` of an interface.
+    ///
+    /// They are no part of the jet: what nobody reads of them is not even computed.
     #[inline(always)]
-    pub(crate) fn expand_switching(&mut self, flow: &F, t: f64) {
-        type Unrolled<F, const N: usize, const M: usize> =
-            <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Unrolled;
-        Unrolled::<F, N, M>::run::<0, LOOK, 0, _>(&mut Switching { flow, t, jet: self }, LOOK);
+    pub(crate) fn first_switching<T>(
+        &self,
+        flow: &F,
+        t: f64,
+        each: impl FnOnce(&[[f64; FIRST]]) -> T,
+    ) -> T {
+        let states = self.coefficients();
+        let states: [[f64; FIRST]; N] = std::array::from_fn(|i| {
+            std::array::from_fn(|k| if k < P { states[i][k] } else { 0.0 })
+        });
+        let mut first = First {
+            flow,
+            t,
+            states: &states,
+            series: F::Boundary::series(),
+        };
+        BoundaryUnrolled::<F, N, M>::run::<0, FIRST, 0, _>(&mut first, FIRST);
+        each(first.series.as_ref())
     }
 
-    /// The other coefficients of every switching function.
-    pub(crate) fn finish_switching(&mut self, flow: &F, t: f64) {
+    /// All coefficients of every switching function.
+    pub(crate) fn expand_switching(&mut self, flow: &F, t: f64) {
         let end = self.order + 1;
-        super::Rolled::run::<LOOK, P, 0, _>(&mut Switching { flow, t, jet: self }, end);
+        super::Rolled::run::<0, P, 0, _>(&mut Switching { flow, t, jet: self }, end);
     }
 
     /// The coefficients of g.
-    #[inline(always)]
     pub(crate) fn switching(&self, interface: usize) -> &[f64; P] {
         &self.switching.as_ref()[interface]
-    }
-
-    /// The first coefficients of g.
-    #[inline(always)]
-    pub(crate) fn first_switching(&self, interface: usize) -> [f64; LOOK] {
-        let c = self.switching(interface);
-        std::array::from_fn(|k| c[k])
     }
 
     /// The step over `fraction` of the radius of convergence, which the root test on the last

@@ -4,11 +4,14 @@
 //! that the loop over steps is compiled for that flow; for a smooth system the look at
 //! interfaces is compiled away.
 
+mod arrive;
 mod expand;
+mod glance;
 mod interfaces;
 mod run;
 mod steps;
 
+pub(crate) use glance::Decay;
 pub(crate) use run::run_segments;
 
 use std::ops::ControlFlow;

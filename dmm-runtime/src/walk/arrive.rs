@@ -1,0 +1,172 @@
+//! The point where a Taylor step meets an interface: t̂* and x̂* such that g = 0 and ψ keeps its
+//! level, both to rounding.
+//!
+//! The root of g along the polynomial is found by Halley's method, with d²g/dt² from the cubic
+//! between the start of the step and the point. The rest, so small that the flow is a straight
+//! line over it, is taken together with what is off the level: with u = −Λ⁺(ψ − ψ_ref) and
+//! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ.
+
+use crate::error::Error;
+use crate::level::Level;
+use crate::linear::is_finite;
+use crate::observer::Observer;
+use crate::scheme::Taylor;
+use crate::series::jet::Jet;
+use crate::state::State;
+use crate::system::{Boundary, Flow, System, Vector};
+use crate::time::Time;
+use crate::transition::Locator;
+use crate::walk::{SegmentEnd, Walk};
+
+/// Corrections of a crossing.
+const MOST_CORRECTIONS: u32 = 12;
+/// A correction of the time smaller than this part of the step is made along the field.
+const SMALL: f64 = 1e-8;
+
+/// A crossing in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) interface: usize,
+    /// About how long after the start.
+    pub(super) elapsed: f64,
+    /// g and dg/dt at the start of the step, unless `elapsed` is a root to rounding.
+    pub(super) start: Option<(f64, f64)>,
+}
+
+/// g at a point of the solution, and how it changes there.
+struct Approach<const N: usize> {
+    value: f64,
+    gradient: Vector<f64, N>,
+    /// f
+    field: Vector<f64, N>,
+    /// dg/dt
+    rate: f64,
+}
+
+impl<const N: usize> Approach<N> {
+    #[inline(always)]
+    fn at<const M: usize, F: Flow<f64, N, M>>(
+        flow: &F,
+        interface: usize,
+        time: Time,
+        state: &State<N>,
+    ) -> Self {
+        let boundary = flow.boundary();
+        let value = boundary.switching_function(interface, time.value, &state.x);
+        let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
+        let field = flow.vector_field(time.value, &state.x);
+        Self {
+            value: value + gradient.dot(&state.remainder) + by_time * time.remainder,
+            rate: by_time + gradient.dot(&field),
+            gradient,
+            field,
+        }
+    }
+}
+
+impl<Sys, Loc, Obs, const N: usize> Walk<'_, Sys, Taylor, Loc, Obs, N>
+where
+    Sys: System<N>,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
+    /// Moves to the interface.
+    #[inline(never)]
+    pub(super) fn arrive<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        level: &Level<N, M>,
+        jet: &Jet<F, N, M, P>,
+        found: &Found,
+        tau: f64,
+    ) -> Result<SegmentEnd, Error> {
+        let interface = found.interface;
+        let Some((time, state, rate)) = self.locate::<P, M, F>(flow, level, jet, found, tau) else {
+            return Err(Error::LocationFailed {
+                t: self.time.value,
+                x: self.state.x.iter().copied().collect(),
+                step_size: tau,
+                interface: Sys::INTERFACES[interface],
+            });
+        };
+        let elapsed = time.since(self.time).clamp(0.0, tau);
+        self.outputs_along::<P, M, F>(flow, level, jet, elapsed, time)?;
+        self.state = state;
+        self.time = time;
+        self.statistics.steps += 1;
+        self.progress.step = tau;
+        self.progress.pass(time.value, tau);
+        if self.tell_point().is_break() {
+            return Ok(SegmentEnd::Stopped);
+        }
+        Ok(SegmentEnd::Crossed { interface, rate })
+    }
+
+    /// t̂*, x̂* and dg/dt there.
+    #[inline(always)]
+    fn locate<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        level: &Level<N, M>,
+        jet: &Jet<F, N, M, P>,
+        found: &Found,
+        tau: f64,
+    ) -> Option<(Time, State<N>, f64)> {
+        let interface = found.interface;
+        let mut elapsed = found.elapsed;
+        for _ in 0..MOST_CORRECTIONS {
+            let time = self.time.after(elapsed);
+            let state = self.state.after(&jet.increment(elapsed));
+            let approach = Approach::at(flow, interface, time, &state);
+            let Approach { value, rate, .. } = approach;
+            let delta = match found.start {
+                Some((start, slope)) => {
+                    let inverse = 1.0 / elapsed;
+                    let chord = (start - value) * inverse;
+                    let bend = inverse * (6.0 * chord + 2.0 * slope + 4.0 * rate);
+                    -value * rate / (rate * rate - 0.5 * value * bend)
+                }
+                None => -value / rate,
+            };
+            if !delta.is_finite() {
+                return None;
+            }
+            if delta.abs() <= SMALL * tau {
+                return self.settle_on(flow, level, interface, (time, state), approach);
+            }
+            elapsed = (elapsed + delta).clamp(0.0, tau);
+        }
+        None
+    }
+
+    /// Takes g and what is off the level of ψ off a point close to the interface.
+    #[inline(always)]
+    fn settle_on<const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        level: &Level<N, M>,
+        interface: usize,
+        (mut time, mut state): (Time, State<N>),
+        mut approach: Approach<N>,
+    ) -> Option<(Time, State<N>, f64)> {
+        /// Beyond it the error of second order is more than a rounding error.
+        const SMALL: f64 = 1e-9;
+        let corrects = self.scheme.corrects_level();
+        for _ in 0..MOST_CORRECTIONS {
+            let off = match corrects {
+                true => level.correction(flow, time, &state),
+                false => Vector::zeros(),
+            };
+            let delta = -(approach.value + approach.gradient.dot(&off)) / approach.rate;
+            let displacement = off + approach.field * delta;
+            state.remainder += displacement;
+            state = state.normalised();
+            time = time.after(delta);
+            if displacement.norm_squared() <= SMALL * SMALL * state.x.norm_squared() {
+                return is_finite(&state.x).then_some((time, state, approach.rate));
+            }
+            approach = Approach::at(flow, interface, time, &state);
+        }
+        None
+    }
+}
