@@ -9,7 +9,8 @@ use std::ops::ControlFlow;
 
 use thiserror::Error;
 
-use crate::problem::{Crossed, Method, Problem, Run, Sink};
+use crate::method::Method;
+use crate::problem::{Crossed, OutputTimes, Problem, Run, Sink};
 use crate::truth::{Origin, Truth, TruthError};
 
 /// Where in a segment the state is compared.
@@ -212,7 +213,8 @@ pub fn study(
             } else {
                 t_last * 1.01 + 4.0 * step_size
             },
-            output_times: times.clone(),
+            output_times: OutputTimes::At(times.clone()),
+            ..problem.default_run()
         };
         let mut collector = Collector::default();
         match problem.integrate(&run, &mut collector) {

@@ -4,12 +4,11 @@ use std::ops::ControlFlow;
 
 use dmm_runtime::{
     Boundary, Error, Flow, FlowVisitor, Integrator, Locator, NewtonLocator, Observer, Point,
-    Scheme, Statistics, Symmetric, System, Taylor, Time, Transition, Vector,
+    Scheme, Statistics, System, Time, Transition, Vector,
 };
 
-use crate::midpoint::ExplicitMidpoint;
-use crate::perturbed::Perturbed;
-use crate::problem::{Card, Crossed, Method, Problem, Record, Run, Sink};
+use crate::method::{Method, SchemeVisitor, symmetric};
+use crate::problem::{Card, Crossed, Finish, OutputTimes, Problem, Record, Run, Sink};
 
 /// A system with its card.
 #[derive(Clone, Debug)]
@@ -48,6 +47,7 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
             sink,
             system: &self.system,
             output_times: &run.output_times,
+            outputs: 0,
             psi: Vec::new(),
             size: Vec::new(),
             level: Vec::new(),
@@ -57,26 +57,41 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
             .initial(0.0, Self::vector(&run.initial));
         Ok(problem.observe_until(run.t_end, &mut relay)?.statistics)
     }
+}
 
-    /// An integration that nobody observes.
-    fn silently<Sch: Scheme>(&self, run: &Run, scheme: Sch) -> Result<Statistics, Error> {
-        let problem =
-            Integrator::new(&self.system, scheme).initial(0.0, Self::vector(&run.initial));
-        Ok(problem.observe_until(run.t_end, &mut ())?.statistics)
+/// An integration that a sink observes.
+struct Observed<'a, Sys, const N: usize> {
+    entry: &'a Entry<Sys, N>,
+    run: &'a Run,
+    sink: &'a mut dyn Sink,
+}
+
+impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Observed<'_, Sys, N> {
+    type Output = Result<Statistics, Error>;
+
+    fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output {
+        self.entry
+            .observe(self.run, scheme, NewtonLocator, self.sink)
     }
 }
 
-/// The conservative scheme of order 2 of a run.
-fn symmetric(run: &Run) -> Symmetric {
-    Symmetric::step_size(run.step_size)
+/// An integration that nobody observes.
+struct Silent<'a, Sys, const N: usize> {
+    entry: &'a Entry<Sys, N>,
+    run: &'a Run,
 }
 
-/// Ignores everything.
-struct Nobody;
+impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Silent<'_, Sys, N> {
+    type Output = Result<Finish, Error>;
 
-impl Sink for Nobody {
-    fn wants_records(&self) -> bool {
-        false
+    fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output {
+        let initial = Entry::<Sys, N>::vector(&self.run.initial);
+        let problem = Integrator::new(&self.entry.system, scheme).initial(0.0, initial);
+        let end = problem.observe_until(self.run.t_end, &mut ())?;
+        Ok(Finish {
+            x: end.point.x.as_slice().to_vec(),
+            statistics: end.statistics,
+        })
     }
 }
 
@@ -85,7 +100,9 @@ struct Relay<'a, Sys> {
     sink: &'a mut dyn Sink,
     wants_records: bool,
     system: &'a Sys,
-    output_times: &'a [f64],
+    output_times: &'a OutputTimes,
+    /// How many of them there were so far.
+    outputs: usize,
     psi: Vec<f64>,
     size: Vec<f64>,
     /// ψ on entry to the region; empty until then.
@@ -97,11 +114,15 @@ fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
     Sys::REGIONS.iter().position(is_it).unwrap_or_default()
 }
 
-impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Relay<'_, Sys> {
-    fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
-        if !self.wants_records {
-            return ControlFlow::Continue(());
-        }
+impl<Sys> Relay<'_, Sys> {
+    fn record<const N: usize>(
+        &mut self,
+        point: &Point<Sys::Region, N>,
+        is_output: bool,
+    ) -> ControlFlow<()>
+    where
+        Sys: System<N>,
+    {
         let Point { t, time, x, region } = *point;
         let (psi, size) = (&mut self.psi, &mut self.size);
         self.system.visit(region, Conserved { time, x, psi, size });
@@ -115,7 +136,17 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Relay<'_, Sys>
             psi: &self.psi,
             size: &self.size,
             level: &self.level,
+            is_output,
         })
+    }
+}
+
+impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Relay<'_, Sys> {
+    fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
+        match self.wants_records {
+            true => self.record(point, false),
+            false => ControlFlow::Continue(()),
+        }
     }
 
     fn transition(&mut self, transition: &Transition<Sys::Region, N>) -> ControlFlow<()> {
@@ -133,12 +164,16 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Relay<'_, Sys>
     }
 
     fn next_output(&self) -> Option<f64> {
-        self.output_times.first().copied()
+        self.output_times.get(self.outputs)
     }
 
     fn output(&mut self, point: &Point<Sys::Region, N>) {
-        self.output_times = self.output_times.get(1..).unwrap_or_default();
+        self.outputs += 1;
         self.sink.output(point.t, point.x.as_slice());
+        if self.wants_records {
+            // who wants to stop here stops at the end of the step
+            let _ = self.record(point, true);
+        }
     }
 }
 
@@ -283,33 +318,17 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
 
     fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error> {
         match run.method {
-            Method::Symmetric { level_correction } => {
-                let scheme = symmetric(run).level_correction(level_correction);
-                self.observe(run, scheme, NewtonLocator, sink)
-            }
-            Method::Taylor { tolerance } => {
-                self.observe(run, Taylor::tolerance(tolerance), NewtonLocator, sink)
-            }
-            Method::ExplicitMidpoint => {
-                let scheme = ExplicitMidpoint::step_size(run.step_size);
-                self.observe(run, scheme, NewtonLocator, sink)
-            }
-            Method::Perturbed { amplitude, power } => {
-                let locator = Perturbed { amplitude, power };
-                self.observe(run, symmetric(run), locator, sink)
-            }
+            Method::Perturbed(locator) => self.observe(run, symmetric(run), locator, sink),
+            _ => run.visit_scheme(Observed {
+                entry: self,
+                run,
+                sink,
+            }),
         }
     }
 
-    fn integrate_silently(&self, run: &Run) -> Result<Statistics, Error> {
-        match run.method {
-            Method::Symmetric { level_correction } => {
-                self.silently(run, symmetric(run).level_correction(level_correction))
-            }
-            Method::Taylor { tolerance } => self.silently(run, Taylor::tolerance(tolerance)),
-            // for comparison only: not worth the time to compile each a second time
-            _ => self.integrate(run, &mut Nobody),
-        }
+    fn integrate_silently(&self, run: &Run) -> Result<Finish, Error> {
+        run.visit_scheme(Silent { entry: self, run })
     }
 
     fn duplicate(&self) -> Box<dyn Problem> {

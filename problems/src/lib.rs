@@ -3,7 +3,7 @@
 //!
 //! - [`systems`]: one file a system, with its source and initial value problem;
 //! - [`problem`]: the same operations on all of them, whatever their dimension, implemented in
-//!   [`entry`] for systems declared by `pws!`;
+//!   [`entry`] for systems declared by `pws!`; [`method`]: the schemes by name;
 //! - [`mod@reference`]: solutions known to 32 digits; [`accurate`]: an independent integrator of
 //!   high order, for what the reference does not list;
 //! - [`convergence`] and [`conservation`]: the studies; [`picture`]: their figures;
@@ -14,6 +14,7 @@ pub mod accurate;
 pub mod conservation;
 pub mod convergence;
 pub mod entry;
+pub mod method;
 pub mod midpoint;
 pub mod perturbed;
 pub mod picture;

@@ -7,6 +7,11 @@ use std::ops::ControlFlow;
 
 use dmm_runtime::{Error, Statistics};
 
+use crate::method::Method;
+
+/// Of a run, unless another is given.
+pub const DEFAULT_TOLERANCE: f64 = 1e-12;
+
 /// What a problem is called, where it comes from, and its initial value problem.
 #[derive(Clone, Copy, Debug)]
 pub struct Card {
@@ -29,50 +34,46 @@ pub struct Card {
     pub reference: Option<&'static str>,
 }
 
-/// The scheme of a run.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Method {
-    /// The conservative scheme of order 2.
-    Symmetric {
-        /// Whether the level of ψ is kept (default) or left to rounding.
-        level_correction: bool,
-    },
-    /// Taylor's method with conservation, with steps of its own choice.
-    Taylor {
-        /// The error of a step, relative to the state.
-        tolerance: f64,
-    },
-    /// The explicit midpoint rule with the same transitions, for comparison.
-    ExplicitMidpoint,
-    /// The conservative scheme with every crossing located too late by `amplitude`·τ^`power`.
-    Perturbed {
-        /// Factor of the perturbation.
-        amplitude: f64,
-        /// Its order p.
-        power: i32,
-    },
-}
-
-impl Method {
-    /// The conservative scheme as it is meant to be used.
-    pub const SYMMETRIC: Self = Self::Symmetric {
-        level_correction: true,
-    };
-}
-
 /// An integration to be made from t = 0.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Run {
     /// The scheme.
     pub method: Method,
-    /// τ
+    /// τ, if the scheme has uniform steps.
     pub step_size: f64,
+    /// The tolerance, if the scheme has one.
+    pub tolerance: f64,
+    /// Whether the level of ψ is kept (as it is meant to be) or left to rounding.
+    pub level_correction: bool,
     /// Initial state.
     pub initial: Vec<f64>,
     /// End time.
     pub t_end: f64,
-    /// Times at which [`Sink::output`] is called, in ascending order.
-    pub output_times: Vec<f64>,
+    /// Times of output besides the steps.
+    pub output_times: OutputTimes,
+}
+
+/// Times at which [`Sink::output`] is called.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub enum OutputTimes {
+    /// None.
+    #[default]
+    None,
+    /// These, in ascending order.
+    At(Vec<f64>),
+    /// The multiples of an interval.
+    Every(f64),
+}
+
+impl OutputTimes {
+    /// The `k`-th, from 0.
+    pub(crate) fn get(&self, k: usize) -> Option<f64> {
+        match self {
+            Self::None => None,
+            Self::At(times) => times.get(k).copied(),
+            Self::Every(interval) => Some((k + 1) as f64 * interval),
+        }
+    }
 }
 
 /// A point of a run, with the conserved quantities of its region.
@@ -91,6 +92,8 @@ pub struct Record<'a> {
     pub size: &'a [f64],
     /// ψ on entry to the region.
     pub level: &'a [f64],
+    /// Whether it is a time of output, rather than the end of a step.
+    pub is_output: bool,
 }
 
 impl Record<'_> {
@@ -123,6 +126,15 @@ impl Record<'_> {
     }
 }
 
+/// How a run ended.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Finish {
+    /// The state at the end time.
+    pub x: Vec<f64>,
+    /// Counters of the run.
+    pub statistics: Statistics,
+}
+
 /// A transition of a run.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Crossed {
@@ -144,7 +156,8 @@ pub struct Crossed {
 
 /// What listens to a run.
 pub trait Sink {
-    /// A point; at a transition one with each region.
+    /// A point: the end of a step, at a transition one with each region, and each time of
+    /// output.
     fn record(&mut self, _record: &Record<'_>) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
@@ -154,7 +167,7 @@ pub trait Sink {
         ControlFlow::Continue(())
     }
 
-    /// The state at the next of [`Run::output_times`].
+    /// The state at the next of [`Run::output_times`], before it is recorded.
     fn output(&mut self, _t: f64, _x: &[f64]) {}
 
     /// Whether [`Sink::record`] is to be called.
@@ -202,7 +215,7 @@ pub trait Problem: Send + Sync {
     ///
     /// # Errors
     /// Whatever stops the integration.
-    fn integrate_silently(&self, run: &Run) -> Result<Statistics, Error>;
+    fn integrate_silently(&self, run: &Run) -> Result<Finish, Error>;
     /// A copy.
     fn duplicate(&self) -> Box<dyn Problem>;
 
@@ -210,11 +223,13 @@ pub trait Problem: Send + Sync {
     fn default_run(&self) -> Run {
         let card = self.card();
         Run {
-            method: Method::SYMMETRIC,
+            method: Method::Symmetric,
             step_size: card.step_size,
+            tolerance: DEFAULT_TOLERANCE,
+            level_correction: true,
             initial: card.initial.to_vec(),
             t_end: card.t_end,
-            output_times: Vec::new(),
+            output_times: OutputTimes::None,
         }
     }
 

@@ -5,7 +5,7 @@
 //! bounds.
 
 use dmm_problems::conservation::{Conservation, measure};
-use dmm_problems::problem::Method;
+use dmm_problems::method::Method;
 use dmm_problems::registry::{all, find};
 
 const STEPS: f64 = 10_000.0;
@@ -15,7 +15,7 @@ const STEPS_OF_LARGE: f64 = 2_000.0;
 fn conservation(name: &str, level_correction: bool, step_size: f64) -> Conservation {
     let problem = find(name).unwrap();
     let mut run = problem.default_run();
-    run.method = Method::Symmetric { level_correction };
+    run.level_correction = level_correction;
     run.step_size = step_size;
     run.t_end = step_size
         * match problem.states().len() {
@@ -43,7 +43,8 @@ fn levels_are_kept_by_taylor_whatever_the_tolerance() {
         let name = problem.card().name;
         for tolerance in [1e-3, 1e-8, 1e-15] {
             let mut run = problem.default_run();
-            run.method = Method::Taylor { tolerance };
+            run.method = Method::Taylor;
+            run.tolerance = tolerance;
             let kept = measure(problem.as_ref(), &run, &mut |_| {}).unwrap();
             // the truncation error of a step is taken off whole; of its last 16 ulp the
             // correction's damping leaves a part where ψ has little slope

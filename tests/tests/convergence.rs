@@ -3,7 +3,8 @@
 //! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
 
 use dmm_problems::convergence::{Plan, Row, Study, fitted_order, study};
-use dmm_problems::problem::Method;
+use dmm_problems::method::Method;
+use dmm_problems::perturbed::Perturbed;
 use dmm_problems::registry::find;
 
 /// Exponents of step sizes 2⁻ᵏ in the asymptotic regime, far above rounding.
@@ -55,7 +56,7 @@ fn assert_crossing_order(study: &Study, row: &Row, name: &str) {
 #[test]
 fn the_papers_systems_have_order_2_before_and_after_transitions() {
     for name in ["harmonic", "elliptic"] {
-        let study = measured(name, Method::SYMMETRIC, &[0, 10, 20, 30], HALVINGS);
+        let study = measured(name, Method::Symmetric, &[0, 10, 20, 30], HALVINGS);
         for row in &study.rows {
             for (i, errors) in row.components.iter().enumerate() {
                 let what = format!("{name}, component {i} after {}", row.transitions);
@@ -76,7 +77,7 @@ fn every_strategy_keeps_the_order_across_transitions() {
         "kepler_refraction",
         "rigid_body",
     ] {
-        let study = measured(name, Method::SYMMETRIC, &[0, 3, 6], HALVINGS);
+        let study = measured(name, Method::Symmetric, &[0, 3, 6], HALVINGS);
         for row in &study.rows {
             // a single component may happen to have a small leading coefficient
             let what = format!("{name}, after {}", row.transitions);
@@ -96,7 +97,7 @@ fn chains_and_circuits_keep_the_order_across_transitions() {
         ("fput_chain_32", &[0, 1], 5..=7),
         ("toda_chain_32", &[0, 3], 5..=7),
     ] {
-        let study = measured(name, Method::SYMMETRIC, after, halvings);
+        let study = measured(name, Method::Symmetric, after, halvings);
         for row in &study.rows {
             let what = format!("{name}, after {}", row.transitions);
             assert_order(&study, &row.norms(), 2.0, &what);
@@ -116,7 +117,7 @@ fn smooth_systems_have_order_2() {
         "double_pendulum",
         "three_body",
     ] {
-        let study = measured(name, Method::SYMMETRIC, &[0], 7..=10);
+        let study = measured(name, Method::Symmetric, &[0], 7..=10);
         let row = &study.rows[0];
         assert_order(&study, &row.norms(), 2.0, name);
     }
@@ -124,10 +125,10 @@ fn smooth_systems_have_order_2() {
 
 #[test]
 fn crossings_located_to_first_order_cost_an_order() {
-    let late = Method::Perturbed {
+    let late = Method::Perturbed(Perturbed {
         amplitude: 1.0 / 16.0,
         power: 1,
-    };
+    });
     for name in ["harmonic", "elliptic"] {
         // so small that the error O(τ) has left the scheme's own O(τ²) behind
         let study = measured(name, late, &[0, 10], 12..=15);

@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use crate::accurate;
-use crate::problem::{Crossed, Method, Problem, Run, Sink};
+use crate::method::Method;
+use crate::problem::{Crossed, OutputTimes, Problem, Run, Sink};
 use crate::reference::Reference;
 use crate::registry;
 
@@ -41,12 +42,13 @@ impl Sink for Collector {
     }
 }
 
-fn solve(problem: &dyn Problem, method: Method, step_size: f64, times: &[f64]) -> Collector {
+fn solve(problem: &dyn Problem, method: Method, control: f64, times: &[f64]) -> Collector {
     let run = Run {
         method,
-        step_size,
+        step_size: control,
+        tolerance: control,
         t_end: *times.last().unwrap(),
-        output_times: times.to_vec(),
+        output_times: OutputTimes::At(times.to_vec()),
         ..problem.default_run()
     };
     let mut collector = Collector::default();
@@ -85,8 +87,8 @@ struct Exact {
 fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
     let name = problem.card().name;
     let times: Vec<f64> = exact.samples.iter().map(|(t, _)| *t).collect();
-    let coarse = solve(problem, Method::SYMMETRIC, step_size, &times);
-    let fine = solve(problem, Method::SYMMETRIC, 0.5 * step_size, &times);
+    let coarse = solve(problem, Method::Symmetric, step_size, &times);
+    let fine = solve(problem, Method::Symmetric, 0.5 * step_size, &times);
     assert_eq!(coarse.crossings.len(), exact.count, "{name}");
     assert_eq!(fine.crossings.len(), exact.count, "{name}");
     let numerical = coarse.crossings.iter().zip(&fine.crossings);
@@ -109,7 +111,7 @@ fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
 /// the tolerance of Taylor's method.
 fn assert_reaches(problem: &dyn Problem, tolerance: f64, times: &[f64], exact: &Exact) {
     let name = problem.card().name;
-    let solution = solve(problem, Method::Taylor { tolerance }, 1.0, times);
+    let solution = solve(problem, Method::Taylor, tolerance, times);
     let largest = GROWTH * tolerance;
     assert_eq!(
         solution.crossings.len(),

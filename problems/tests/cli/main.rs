@@ -151,7 +151,10 @@ fn every_command_takes_every_problem() {
         let shown = said(&["show", name]);
         assert!(shown.contains("discrete vector field"), "{name}");
         let text = results.said(&["run", name, "--step", "0.02", "--end", "1"]);
-        assert!(text.contains("reached t = 1 with step size 0.02"), "{text}");
+        assert!(
+            text.contains("reached t = 1 by symmetric with step size 0.02"),
+            "{text}"
+        );
         let halvings = [
             "--after",
             "0",

@@ -37,6 +37,22 @@ fn senseless_values_are_refused() {
         refusal(&["run", "harmonic", option, value]);
     }
     assert!(refusal(&["run", "harmonic", "--step", "-1"]).contains("must be positive"));
+    let taylor = |option, value| refusal(&["run", "harmonic", "--scheme", "taylor", option, value]);
+    assert!(taylor("--tolerance", "2").contains("must lie between"));
+    assert!(taylor("--step", "0").contains("must be positive"));
+    assert!(taylor("--step", "1e-300").contains("is below the rounding error"));
+    let text = refusal(&[
+        "run",
+        "harmonic",
+        "--scheme",
+        "explicit-midpoint",
+        "--tolerance=1e-6",
+    ]);
+    assert!(
+        text.contains("takes a step size, not a tolerance"),
+        "{text}"
+    );
+    refusal(&["converge", "harmonic", "--scheme", "taylor"]);
     assert!(refusal(&["converge", "harmonic", "--after", "5000"]).contains("transitions"));
     refusal(&["converge", "harmonic", "--step=-1"]);
 }

@@ -81,6 +81,71 @@ fn run_takes_parameters_initial_state_scheme_and_format() {
 }
 
 #[test]
+fn a_scheme_that_chooses_its_steps_is_written_at_even_times() {
+    let results = Results::new();
+    let call = [
+        "run",
+        "harmonic",
+        "--scheme",
+        "taylor",
+        "--tolerance",
+        "1e-9",
+        "--step",
+        "0.125",
+        "--every",
+        "2",
+        "--end",
+        "10",
+    ];
+    let text = results.said(&call);
+    assert!(
+        text.contains("t = 10 by taylor with tolerance 1e-9"),
+        "{text}"
+    );
+    let (_, points) = results.table("points.csv");
+    let times: Vec<f64> = points.iter().map(|row| row[0].parse().unwrap()).collect();
+    let (even, between): (Vec<f64>, Vec<f64>) = times.iter().partition(|t| **t % 0.25 == 0.0);
+    // every second multiple of the step, from the start to the end, each once
+    let multiples: Vec<f64> = (0..=40).map(|k| 0.25 * f64::from(k)).collect();
+    assert_eq!(even, multiples);
+    // and both sides of four transitions, where the exact solution has them
+    assert_eq!(between.len(), 2 * 4);
+    assert!(between.chunks(2).all(|pair| pair[0] == pair[1]));
+    assert!((between[0] - std::f64::consts::FRAC_PI_4).abs() < 1e-9);
+    assert!(times.is_sorted());
+    // x = cos t + sin t until then
+    let x: f64 = points[2][2].parse().unwrap();
+    assert!((x - (0.5f64.cos() + 0.5f64.sin())).abs() < 1e-9, "{x}");
+}
+
+#[test]
+fn the_level_is_left_to_rounding_on_request() {
+    let errors = |options: &[&str]| {
+        let results = Results::new();
+        let call = [
+            "run",
+            "elliptic",
+            "--scheme",
+            "taylor",
+            "--tolerance",
+            "1e-6",
+        ];
+        results.said(&[&call[..], options].concat());
+        let (header, points) = results.table("points.csv");
+        let column = header
+            .iter()
+            .position(|name| name == "curve_error")
+            .unwrap();
+        let errors = points.iter().map(|row| row[column].parse::<f64>().unwrap());
+        errors.fold(0.0, |worst: f64, error| worst.max(error.abs()))
+    };
+    let options = ["--end", "10", "--step", "0.1"];
+    let bare = [&options[..], &["--no-level-correction"]].concat();
+    assert!(errors(&options) < 1e-14);
+    assert!(errors(&bare) > 1e-10);
+}
+
+#[test]
 fn a_smooth_problem_has_no_file_of_transitions() {
     let results = Results::new();
     results.said(&["run", "henon-heiles", "--end", "1"]);

@@ -24,6 +24,25 @@ fn converge_prints_orders_and_writes_errors() {
 }
 
 #[test]
+fn the_studies_take_a_scheme() {
+    let results = Results::new();
+    let call = ["converge", "elliptic", "--after", "0", "--halvings", "2"];
+    let text = results.said(&[&call[..], &["--scheme", "explicit-midpoint"]].concat());
+    assert!(text.contains("x at t = "), "{text}");
+    let call = [
+        "conserve", "elliptic", "--scheme", "taylor", "--steps", "5000",
+    ];
+    results.said(&[&call[..], &["--tolerance", "1e-9"]].concat());
+    let (header, rows) = results.table("conservation.csv");
+    let column = |name: &str| header.iter().position(|known| known == name).unwrap();
+    let value = |name: &str| rows[0][column(name)].parse::<f64>().unwrap();
+    // 5 units of time: some ten steps of Taylor's method a period of 1.9
+    assert!(value("steps") < 500.0);
+    assert!(value("ulps_corrected") <= 64.0);
+    assert!(value("relative_drift_uncorrected") > 1e-12);
+}
+
+#[test]
 fn a_study_keeps_the_step_sizes_that_worked() {
     let results = Results::new();
     // a step of 8 leads to negative populations, which have no logarithm

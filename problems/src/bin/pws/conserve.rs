@@ -4,23 +4,26 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use dmm_problems::conservation::{self, Conservation};
-use dmm_problems::problem::{Method, Problem, Run};
+use dmm_problems::problem::{Problem, Run};
 use dmm_problems::registry;
 
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{self, Csv, Table};
 use crate::progress;
+use crate::scheme::SchemeOptions;
+
+/// Of every problem, unless another is given.
+const DEFAULT_STEP_SIZE: f64 = 1e-3;
 
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// Names of the problems [default: all].
     problems: Vec<String>,
-    /// Step size.
-    #[arg(long, default_value_t = 1e-3, allow_negative_numbers = true)]
-    step: f64,
-    /// Number of steps.
+    #[command(flatten)]
+    scheme: SchemeOptions,
+    /// Number of steps; a scheme that chooses its steps covers the same time.
     #[arg(long, default_value_t = 1_000_000, value_parser = input::count)]
     steps: u64,
     /// Directory of the results.
@@ -117,19 +120,20 @@ fn row(
     problem: &dyn Problem,
     arguments: &Arguments,
 ) -> Result<(Conservation, Conservation), Failure> {
-    let t_end = arguments.step * arguments.steps as f64;
+    let run = arguments.scheme.applied(Run {
+        step_size: DEFAULT_STEP_SIZE,
+        ..problem.default_run()
+    })?;
+    let t_end = run.step_size * arguments.steps as f64;
     let run = Run {
-        step_size: arguments.step,
         t_end: problem
             .card()
             .longest
             .map_or(t_end, |longest| t_end.min(longest)),
-        ..problem.default_run()
+        ..run
     };
     let bare = Run {
-        method: Method::Symmetric {
-            level_correction: false,
-        },
+        level_correction: false,
         ..run.clone()
     };
     let bar = progress::bar((2.0 * run.t_end) as u64, 2.0 * arguments.steps as f64);

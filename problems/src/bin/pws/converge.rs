@@ -4,20 +4,25 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, fitted_order, norms};
+use dmm_problems::method::{Control, Method};
 use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
-use dmm_problems::problem::{Method, Problem};
+use dmm_problems::problem::Problem;
 use dmm_problems::truth::Truth;
 
 use crate::failure::Failure;
 use crate::input::{self, FormatOption};
 use crate::output::{self, Csv, Table};
 use crate::progress;
+use crate::scheme;
 
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// Name of the problem (see `pws list`).
     problem: String,
+    /// The scheme, one of uniform steps.
+    #[arg(long, default_value = "symmetric", value_parser = scheme::uniform_names())]
+    scheme: String,
     /// Numbers of transitions after which errors are measured [default: 0,10,20,30, or fewer
     /// where there are fewer].
     #[arg(long, value_delimiter = ',')]
@@ -58,7 +63,7 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
         )));
     }
     let plan = Plan {
-        method: Method::SYMMETRIC,
+        method: scheme::named(&arguments.scheme, false)?,
         after: arguments
             .after
             .clone()
@@ -91,7 +96,7 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     let picture = output::picture(
         &out,
         "convergence",
-        &picture(problem, &study),
+        &picture(problem, plan.method, &study),
         arguments.format.into(),
     )?;
     output::announce(&[picture])?;
@@ -258,7 +263,11 @@ pub(crate) fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
     step_sizes.zip(errors.iter().copied()).collect()
 }
 
-fn picture(problem: &dyn Problem, study: &Study) -> Picture {
+fn picture(problem: &dyn Problem, method: Method, study: &Study) -> Picture {
+    let order = match method.control() {
+        Control::StepSize { order } => order,
+        Control::Tolerance => 1,
+    };
     let mut panels = Vec::new();
     if study.rows.iter().any(|row| row.crossing.is_some()) {
         let (x, y) = axes("|crossing time − exact|");
@@ -274,7 +283,7 @@ fn picture(problem: &dyn Problem, study: &Study) -> Picture {
                 );
             }
         }
-        panel.slope(2, 0);
+        panel.slope(order, 0);
         panels.push(panel);
     }
     let rows: Vec<_> = study.rows.iter().map(|row| parts(problem, row)).collect();
@@ -295,7 +304,7 @@ fn picture(problem: &dyn Problem, study: &Study) -> Picture {
                 COLOURS[k % COLOURS.len()],
             );
         }
-        panel.slope(2, 0);
+        panel.slope(order, 0);
         panels.push(panel);
     }
     Picture {

@@ -16,6 +16,7 @@ mod paper;
 mod portrait;
 mod progress;
 mod run;
+mod scheme;
 mod show;
 
 use std::io::Write;

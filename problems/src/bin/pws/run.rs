@@ -4,17 +4,17 @@ mod recorder;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use clap::ValueEnum;
 use dmm_problems::picture::{Format, Picture};
-use dmm_problems::problem::{Method, Problem, Run};
+use dmm_problems::problem::{Problem, Run};
 use dmm_runtime::Statistics;
 
 use crate::failure::Failure;
 use crate::input::{self, FormatOption};
 use crate::output;
 use crate::portrait;
+use crate::scheme::{self, SchemeOptions};
 use recorder::{Finished, Recorder};
 
 /// What to integrate.
@@ -22,12 +22,11 @@ use recorder::{Finished, Recorder};
 pub(crate) struct Arguments {
     /// Name of the problem (see `pws list`).
     problem: String,
-    /// The scheme.
-    #[arg(long, value_enum, default_value = "symmetric")]
-    scheme: SchemeOption,
-    /// Step size [default: the problem's].
-    #[arg(long, allow_negative_numbers = true)]
-    step: Option<f64>,
+    #[command(flatten)]
+    scheme: SchemeOptions,
+    /// Leave the level of the conserved quantities to rounding.
+    #[arg(long)]
+    no_level_correction: bool,
     /// End time [default: the problem's].
     #[arg(long, allow_negative_numbers = true)]
     end: Option<f64>,
@@ -37,7 +36,8 @@ pub(crate) struct Arguments {
     /// The initial state; states not named keep the problem's value.
     #[arg(long, value_name = "x=1,q[0]=2", allow_hyphen_values = true)]
     initial: Option<String>,
-    /// Write every n-th step to the file of points; transitions and both ends always.
+    /// Write every n-th step, or output, to the file of points; transitions and both ends
+    /// always.
     #[arg(long, default_value_t = 1, value_parser = input::count)]
     every: u64,
     /// The two states of the phase portrait [default: the first two].
@@ -51,43 +51,20 @@ pub(crate) struct Arguments {
     format: FormatOption,
 }
 
-/// Schemes that can be asked for.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum SchemeOption {
-    /// The conservative scheme of order 2.
-    Symmetric,
-    /// The same without the correction of the level.
-    SymmetricUncorrected,
-    /// The explicit midpoint rule, for comparison: does not conserve.
-    ExplicitMidpoint,
-}
-
-impl From<SchemeOption> for Method {
-    fn from(option: SchemeOption) -> Self {
-        match option {
-            SchemeOption::Symmetric => Self::SYMMETRIC,
-            SchemeOption::SymmetricUncorrected => Self::Symmetric {
-                level_correction: false,
-            },
-            SchemeOption::ExplicitMidpoint => Self::ExplicitMidpoint,
-        }
-    }
-}
-
 /// Integrates, writes, summarises.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &arguments.parameters)?;
     let problem = &*problem;
-    let defaults = problem.default_run();
+    let run = arguments.scheme.applied(problem.default_run())?;
     let run = Run {
-        method: arguments.scheme.into(),
-        step_size: arguments.step.unwrap_or(defaults.step_size),
         initial: input::initial(problem, arguments.initial.as_deref())?,
-        t_end: arguments.end.unwrap_or(defaults.t_end),
-        output_times: Vec::new(),
+        t_end: arguments.end.unwrap_or(run.t_end),
+        level_correction: !arguments.no_level_correction,
+        ..run
     };
     let plane = plane(problem, arguments.plane.as_deref())?;
     check(problem, &run)?;
+    let run = scheme::with_even_output(run)?;
     let default_out = || Path::new("output").join(problem.card().name);
     let out = arguments.out.clone().unwrap_or_else(default_out);
     output::directory(&out)?;
@@ -166,6 +143,8 @@ fn pictures(
 
 /// Steps of the run that is timed.
 const LARGEST_TIMED: f64 = 1e6;
+/// A shorter run is repeated: what is new to the processor is slow.
+const LEAST_TIMED: Duration = Duration::from_millis(20);
 
 fn summarise(
     problem: &dyn Problem,
@@ -177,9 +156,9 @@ fn summarise(
     writeln!(out, "{}: {}", problem.card().name, problem.card().title)?;
     writeln!(
         out,
-        "reached t = {} with step size {}",
+        "reached t = {} by {}",
         output::number(finished.t),
-        output::number(run.step_size)
+        scheme::describe(run)
     )?;
     writeln!(out, "transitions: {}", finished.transitions)?;
     writeln!(
@@ -195,8 +174,11 @@ fn summarise(
         ..run.clone()
     };
     let start = Instant::now();
-    let done = problem.integrate_silently(&timed)?;
-    let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / done.steps.max(1) as f64;
+    let mut steps = 0;
+    while steps == 0 || start.elapsed() < LEAST_TIMED {
+        steps += problem.integrate_silently(&timed)?.statistics.steps.max(1);
+    }
+    let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / steps as f64;
     let per_step = statistics.newton_iterations as f64 / statistics.steps.max(1) as f64;
     writeln!(
         out,

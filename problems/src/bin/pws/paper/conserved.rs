@@ -3,8 +3,9 @@
 
 use std::ops::ControlFlow;
 
+use dmm_problems::method::Method;
 use dmm_problems::picture::Picture;
-use dmm_problems::problem::{Method, Problem, Record, Run, Sink};
+use dmm_problems::problem::{Problem, Record, Run, Sink};
 use dmm_problems::reference::Reference;
 
 use super::Report;
@@ -33,7 +34,7 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
     )?;
     let mut panels = Vec::new();
     let schemes = [
-        ("DMM", "discrete multiplier method", Method::SYMMETRIC),
+        ("DMM", "discrete multiplier method", Method::Symmetric),
         ("RK2", "explicit midpoint method", Method::ExplicitMidpoint),
     ];
     for (short, long, method) in schemes {

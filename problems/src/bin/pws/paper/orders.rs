@@ -1,8 +1,10 @@
 //! Figs 3, 4, 6 and 7: errors of crossing times and states against the step size.
 
 use dmm_problems::convergence::{self, Plan, Study};
+use dmm_problems::method::Method;
+use dmm_problems::perturbed::Perturbed;
 use dmm_problems::picture::{COLOURS, Panel, Picture, Stroke};
-use dmm_problems::problem::{Method, Problem};
+use dmm_problems::problem::Problem;
 
 use super::Report;
 use crate::converge::{self, axes, curve, halved, quantities};
@@ -42,7 +44,7 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
     let problem = input::problem(name, &[])?;
     let study = convergence::study(
         &*problem,
-        &plan(&*problem, Method::SYMMETRIC, 1.0 / 64.0),
+        &plan(&*problem, Method::Symmetric, 1.0 / 64.0),
         || (),
     )?;
     let file = format!("fig{number}_{name}_crossing_time");
@@ -107,7 +109,7 @@ pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(),
     )?;
     let mut panels = Vec::new();
     for (power, amplitude, step, title) in PERTURBATIONS {
-        let method = Method::Perturbed { amplitude, power };
+        let method = Method::Perturbed(Perturbed { amplitude, power });
         let study = convergence::study(&*problem, &plan(&*problem, method, step), || ())?;
         let (x, y) = axes("‖x̂ − x‖");
         let mut panel = Panel::new(title, x, y);

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::problem::{Crossed, Problem, Record, Run, Sink};
+use dmm_problems::problem::{Crossed, OutputTimes, Problem, Record, Run, Sink};
 use indicatif::ProgressBar;
 
 use crate::failure::Failure;
@@ -33,6 +33,10 @@ pub(super) struct Recorder<'a> {
     points: Csv,
     transitions: Csv,
     every: u64,
+    /// Whether points of output are written, rather than the ends of steps.
+    writes_outputs: bool,
+    /// Points so far that could be written.
+    offered: u64,
     records: u64,
     /// The last record, and whether it is in the file.
     last: Snapshot,
@@ -80,6 +84,7 @@ impl Snapshot {
             psi: &self.psi,
             size: &self.size,
             level: &self.level,
+            is_output: false,
         }
     }
 }
@@ -124,6 +129,7 @@ impl<'a> Recorder<'a> {
         };
         let regions = problem.regions();
         let steps = run.t_end / run.step_size;
+        let writes_outputs = run.output_times != OutputTimes::None;
         Ok(Self {
             problem,
             columns: (0..regions.len())
@@ -133,6 +139,9 @@ impl<'a> Recorder<'a> {
             points,
             transitions,
             every,
+            writes_outputs,
+            // the start counts, and is no output
+            offered: u64::from(writes_outputs),
             records: 0,
             last: Snapshot::default(),
             written: true,
@@ -173,10 +182,16 @@ impl<'a> Recorder<'a> {
             // the near side of the transition
             self.points.row(self.fields(&self.last.record()))?;
         }
-        self.written = first || self.records.is_multiple_of(self.every);
-        if self.written {
+        let mut due = first;
+        if record.is_output == self.writes_outputs {
+            due |= self.offered.is_multiple_of(self.every);
+            self.offered += 1;
+        }
+        if due {
             self.points.row(self.fields(record))?;
         }
+        // an output at the end of a step is that point
+        self.written = due || (self.written && record.t == self.last.t);
         self.last.take(record);
         Ok(())
     }

@@ -1,0 +1,108 @@
+//! The options that choose a scheme and what decides its steps.
+
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use dmm_problems::method::{Control, Method};
+use dmm_problems::problem::{DEFAULT_TOLERANCE, OutputTimes, Run};
+
+use crate::failure::Failure;
+use crate::output;
+
+/// A scheme, with its step size or tolerance.
+#[derive(clap::Args)]
+pub(crate) struct SchemeOptions {
+    /// The scheme.
+    #[arg(long, default_value = "symmetric", value_parser = names())]
+    scheme: String,
+    /// Step size; of a scheme that takes a tolerance, the distance of output points [default:
+    /// the problem's, or 1e-3 where all are compared].
+    #[arg(long, allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Tolerance of a scheme that chooses its steps [default: 1e-12].
+    #[arg(long, allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+}
+
+/// The names of the schemes, with what they are.
+fn names() -> PossibleValuesParser {
+    parser(Method::all())
+}
+
+/// The names of the schemes with uniform steps.
+pub(crate) fn uniform_names() -> PossibleValuesParser {
+    parser(Method::all().filter(|method| method.control() != Control::Tolerance))
+}
+
+fn parser(methods: impl Iterator<Item = Method>) -> PossibleValuesParser {
+    let mut values: Vec<PossibleValue> = Vec::new();
+    for method in methods {
+        // the form with steps by a tolerance has the same name
+        if !values.iter().any(|value| value.get_name() == method.name()) {
+            values.push(PossibleValue::new(method.name()).help(method.summary()));
+        }
+    }
+    PossibleValuesParser::new(values)
+}
+
+impl SchemeOptions {
+    /// The scheme.
+    fn method(&self) -> Result<Method, Failure> {
+        let method = named(&self.scheme, self.tolerance.is_some())?;
+        match (method.control(), self.tolerance) {
+            (Control::StepSize { .. }, Some(_)) => Err(Failure::Request(format!(
+                "the scheme `{}` takes a step size, not a tolerance",
+                self.scheme
+            ))),
+            _ => Ok(method),
+        }
+    }
+
+    /// The run with these options instead of its own.
+    pub(crate) fn applied(&self, run: Run) -> Result<Run, Failure> {
+        let method = self.method()?;
+        let step_size = self.step.unwrap_or(run.step_size);
+        Ok(Run {
+            method,
+            step_size,
+            tolerance: self.tolerance.unwrap_or(DEFAULT_TOLERANCE),
+            ..run
+        })
+    }
+}
+
+/// The scheme of that name.
+pub(crate) fn named(name: &str, adaptive: bool) -> Result<Method, Failure> {
+    Method::find(name, adaptive).ok_or_else(|| Failure::Request(format!("unknown scheme `{name}`")))
+}
+
+/// The run with output at the multiples of its step size, if the scheme chooses its steps.
+pub(crate) fn with_even_output(run: Run) -> Result<Run, Failure> {
+    if run.method.control() != Control::Tolerance {
+        return Ok(run);
+    }
+    let interval = run.step_size;
+    let requirement = match interval {
+        _ if !(interval > 0.0 && interval.is_finite()) => "must be positive and finite",
+        _ if interval <= f64::EPSILON * run.t_end => "is below the rounding error of the time",
+        _ => {
+            return Ok(Run {
+                output_times: OutputTimes::Every(interval),
+                ..run
+            });
+        }
+    };
+    Err(Failure::Request(format!(
+        "step size: {} ({requirement})",
+        output::number(interval)
+    )))
+}
+
+/// The scheme of a run and what decides its steps, in words.
+pub(crate) fn describe(run: &Run) -> String {
+    let name = run.method.name();
+    match run.method.control() {
+        Control::StepSize { .. } => {
+            format!("{name} with step size {}", output::number(run.step_size))
+        }
+        Control::Tolerance => format!("{name} with tolerance {}", output::number(run.tolerance)),
+    }
+}

@@ -1,0 +1,162 @@
+//! The schemes by name: a row of [`methods!`] is all that a scheme needs to be known to the
+//! program, its studies and its measurements.
+
+use dmm_runtime::{Scheme, Symmetric, Taylor};
+
+use crate::midpoint::ExplicitMidpoint;
+use crate::perturbed::Perturbed;
+use crate::problem::Run;
+
+/// What decides the steps of a scheme.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Control {
+    /// The step size τ, all steps being of that size; the error is O(τᵖ).
+    StepSize {
+        /// p
+        order: i32,
+    },
+    /// A tolerance: steps of the scheme's own choice.
+    Tolerance,
+}
+
+/// What is done with a scheme of whatever type.
+pub trait SchemeVisitor {
+    /// The result.
+    type Output;
+
+    /// Does it.
+    fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output;
+}
+
+const fn order(order: i32) -> Control {
+    Control::StepSize { order }
+}
+
+const TOLERANCE: Control = Control::Tolerance;
+
+macro_rules! methods {
+    (
+        conserving { $(
+            #[doc = $doc:literal]
+            $variant:ident, $name:literal, $control:expr, $scheme:expr;
+        )+ }
+        for_comparison { $(
+            #[doc = $other_doc:literal]
+            $other:ident, $other_name:literal, $other_control:expr, $other_scheme:expr;
+        )+ }
+    ) => {
+        /// The scheme of a run.
+        #[derive(Clone, Copy, PartialEq, Debug)]
+        pub enum Method {
+            $(#[doc = $doc] $variant,)+
+            $(#[doc = $other_doc] $other,)+
+            /// The scheme of order 2 with every crossing located too late.
+            Perturbed(Perturbed),
+        }
+
+        impl Method {
+            /// The schemes that conserve.
+            pub const CONSERVING: &'static [Self] = &[$(Self::$variant),+];
+            /// Others.
+            pub const FOR_COMPARISON: &'static [Self] = &[$(Self::$other),+];
+
+            /// Its name on the command line. A scheme of uniform steps and its form with steps
+            /// by a tolerance have the same.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)+
+                    $(Self::$other => $other_name,)+
+                    Self::Perturbed(_) => "perturbed",
+                }
+            }
+
+            /// What it is.
+            pub fn summary(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $doc,)+
+                    $(Self::$other => $other_doc,)+
+                    Self::Perturbed(_) => "crossings located too late",
+                }
+                .trim()
+            }
+
+            /// What decides its steps.
+            pub fn control(self) -> Control {
+                match self {
+                    $(Self::$variant => $control,)+
+                    $(Self::$other => $other_control,)+
+                    Self::Perturbed(_) => order(2),
+                }
+            }
+        }
+
+        impl Run {
+            /// Hands the scheme of the run to `visitor`.
+            pub(crate) fn visit_scheme<V: SchemeVisitor>(&self, visitor: V) -> V::Output {
+                match self.method {
+                    $(Method::$variant => visitor.visit(apply(self, $scheme)),)+
+                    $(Method::$other => visitor.visit(apply(self, $other_scheme)),)+
+                    Method::Perturbed(_) => visitor.visit(symmetric(self)),
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    conserving {
+        /// order 2, uniform steps
+        Symmetric, "symmetric", order(2), symmetric;
+        /// Taylor's method of high order, steps by a tolerance
+        Taylor, "taylor", TOLERANCE, |run| Taylor::tolerance(run.tolerance).level_correction(run.level_correction);
+    }
+    for_comparison {
+        /// the explicit midpoint rule, which does not conserve
+        ExplicitMidpoint, "explicit-midpoint", order(2), |run| ExplicitMidpoint::step_size(run.step_size);
+    }
+}
+
+/// Helps the compiler to see what a closure takes.
+fn apply<Sch>(run: &Run, scheme: impl Fn(&Run) -> Sch) -> Sch {
+    scheme(run)
+}
+
+/// The conservative scheme of order 2 of a run.
+pub(crate) fn symmetric(run: &Run) -> Symmetric {
+    Symmetric::step_size(run.step_size).level_correction(run.level_correction)
+}
+
+impl Method {
+    /// Every scheme that has a name on the command line.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::CONSERVING.iter().chain(Self::FOR_COMPARISON).copied()
+    }
+
+    /// The scheme of that name, by a tolerance if there is such a form and it is `adaptive`.
+    pub fn find(name: &str, adaptive: bool) -> Option<Self> {
+        let named = || Self::all().filter(|method| method.name() == name);
+        let wanted = |method: &Self| (method.control() == Control::Tolerance) == adaptive;
+        named().find(wanted).or_else(|| named().next())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_and_a_control_are_one_scheme() {
+        let rows: Vec<_> = Method::all()
+            .map(|method| (method.name(), method.control() == Control::Tolerance))
+            .collect();
+        for (i, row) in rows.iter().enumerate() {
+            assert!(!rows[..i].contains(row), "{row:?}");
+        }
+        for method in Method::all() {
+            let adaptive = method.control() == Control::Tolerance;
+            assert_eq!(Method::find(method.name(), adaptive), Some(method));
+        }
+        assert_eq!(Method::find("taylor", false), Some(Method::Taylor));
+        assert_eq!(Method::find("euler", false), None);
+    }
+}
