@@ -8,7 +8,7 @@
 //! | to | use |
 //! |---|---|
 //! | declare a system | [`pws!`] |
-//! | integrate it | [`Integrator`] with a [`Scheme`]: [`Taylor`], the fast one, or [`Symmetric`] |
+//! | integrate it | [`Integrator`] with a [`Scheme`]: [`Taylor`], the fast one, [`Symmetric`] or [`Composed`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | keep some of its points only | [`Recording`] |
 //! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
@@ -26,7 +26,7 @@
 //! meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ and g = 0 (Hirani,
 //! Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
 //!
-//! That is [`Symmetric`], of order 2. [`Taylor`] takes the discrete vector field in minimal-norm
+//! That is [`Symmetric`], of order 2; [`Composed`] makes steps of order 4, 6 and 8 of it. [`Taylor`] takes the discrete vector field in minimal-norm
 //! form instead, with a Taylor polynomial of high order for its mean field and steps as long as
 //! a tolerance allows.
 //!
@@ -70,7 +70,7 @@ pub use minimal_norm::MinimalNorm;
 pub use observer::{Observer, Point, Transition};
 pub use recording::Recording;
 pub use scalar::Scalar;
-pub use scheme::{Correction, OneStep, Scheme, Step, Symmetric, Taylor};
+pub use scheme::{Composed, Composition, Correction, OneStep, Scheme, Step, Symmetric, Taylor};
 pub use solution::{Interrupted, Solution};
 pub use state::State;
 pub use statistics::Statistics;

@@ -1,7 +1,7 @@
 //! The schemes by name: a row of [`methods!`] is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
-use dmm_runtime::{Scheme, Symmetric, Taylor};
+use dmm_runtime::{Composed, Scheme, Symmetric, Taylor};
 
 use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
@@ -107,6 +107,12 @@ methods! {
     conserving {
         /// order 2, uniform steps
         Symmetric, "symmetric", order(2), symmetric;
+        /// its composition of order 4, uniform steps
+        Composed4, "composed-4", order(4), |run| Composed::<4>::step_size(run.step_size).level_correction(run.level_correction);
+        /// its composition of order 6, uniform steps
+        Composed6, "composed-6", order(6), |run| Composed::<6>::step_size(run.step_size).level_correction(run.level_correction);
+        /// its composition of order 8, uniform steps
+        Composed8, "composed-8", order(8), |run| Composed::<8>::step_size(run.step_size).level_correction(run.level_correction);
         /// Taylor's method of high order, steps by a tolerance
         Taylor, "taylor", TOLERANCE, |run| Taylor::tolerance(run.tolerance).level_correction(run.level_correction);
     }

@@ -1,5 +1,5 @@
 //! Fitted orders of accuracy before and after transitions, against solutions known to 30
-//! digits: the scheme's order 2 everywhere, and order 1 where crossings are located with an
+//! digits: each scheme's order everywhere, and order 1 where crossings are located with an
 //! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
 
 use dmm_problems::convergence::{Plan, Row, Study, fitted_order, study};
@@ -22,12 +22,17 @@ fn measured(
     after: &[usize],
     halvings: std::ops::RangeInclusive<i32>,
 ) -> Study {
+    let step_sizes = halvings.map(|k| 0.5f64.powi(k)).collect();
+    studied(name, method, after, step_sizes)
+}
+
+fn studied(name: &str, method: Method, after: &[usize], step_sizes: Vec<f64>) -> Study {
     let problem = find(name).unwrap();
     let plan = Plan {
         method,
         initial: problem.card().initial.to_vec(),
         after: after.to_vec(),
-        step_sizes: halvings.map(|k| 0.5f64.powi(k)).collect(),
+        step_sizes,
         t_end: match problem.interfaces() {
             [] => T_SMOOTH,
             _ => problem.card().t_end,
@@ -44,6 +49,55 @@ fn assert_order(study: &Study, errors: &[f64], order: f64, what: &str) {
         (fitted - order).abs() <= TOLERANCE,
         "{what}: order {fitted}, {errors:?}"
     );
+}
+
+/// A composition, with the exponent of its error, the step size from which its errors are fitted on a problem of
+/// frequencies around 2, and what the order may be off by: steps are long, so that the next term
+/// of the error still shows.
+struct Composition {
+    method: Method,
+    exponent: f64,
+    longest_step: f64,
+    tolerance: f64,
+}
+
+const COMPOSITIONS: [Composition; 3] = [
+    Composition {
+        method: Method::Composed4,
+        exponent: 4.0,
+        longest_step: 1.0 / 16.0,
+        tolerance: 0.1,
+    },
+    Composition {
+        method: Method::Composed6,
+        exponent: 6.0,
+        longest_step: 1.0 / 8.0,
+        tolerance: 0.2,
+    },
+    Composition {
+        method: Method::Composed8,
+        exponent: 8.0,
+        longest_step: 1.0 / 4.0,
+        tolerance: 0.4,
+    },
+];
+
+impl Composition {
+    /// The study on a problem that takes steps longer by `factor`.
+    fn study(&self, name: &str, factor: f64, after: &[usize]) -> Study {
+        let step_size = |k: i32| factor * self.longest_step * 0.5f64.sqrt().powi(k);
+        let step_sizes = (0..4).map(step_size).collect();
+        studied(name, self.method, after, step_sizes)
+    }
+
+    fn assert_order(&self, study: &Study, errors: &[f64], what: &str) {
+        let fitted = fitted_order(&study.step_sizes, errors);
+        assert!(
+            (fitted - self.exponent).abs() <= self.tolerance,
+            "{what}: order {fitted} for {}, {errors:?}",
+            self.exponent
+        );
+    }
 }
 
 /// The time of the row's crossing is of order 2.
@@ -63,6 +117,45 @@ fn the_papers_systems_have_order_2_before_and_after_transitions() {
                 assert_order(&study, errors, 2.0, &what);
             }
             assert_crossing_order(&study, row, name);
+        }
+    }
+}
+
+#[test]
+fn compositions_keep_their_order_across_thirty_transitions() {
+    for (name, factor) in [("elliptic", 0.5), ("pendulum", 1.0)] {
+        for composition in &COMPOSITIONS {
+            let study = composition.study(name, factor, &[0, 10, 20, 30]);
+            for row in &study.rows {
+                let after = row.transitions;
+                for (i, errors) in row.components.iter().enumerate() {
+                    let what = format!("{name}, component {i} after {after}");
+                    composition.assert_order(&study, errors, &what);
+                }
+                let crossing = row.crossing.as_ref().unwrap();
+                let what = format!("{name}, time of crossing {}", crossing.number);
+                composition.assert_order(&study, &crossing.errors, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn compositions_keep_their_order_with_every_strategy() {
+    // ln; time-dependent ψ; minimal norm with M = 3; cross product; no interface
+    for (name, factor, after) in [
+        ("lotka_volterra_periodic", 2.0, &[0, 3, 6][..]),
+        ("damped", 2.0, &[0, 3, 6]),
+        ("kepler_refraction", 1.0, &[0, 3, 6]),
+        ("rigid_body", 8.0, &[0, 3, 6]),
+        ("henon_heiles", 1.5, &[0]),
+    ] {
+        for composition in &COMPOSITIONS {
+            let study = composition.study(name, factor, after);
+            for row in &study.rows {
+                let what = format!("{name}, after {}", row.transitions);
+                composition.assert_order(&study, &row.norms(), &what);
+            }
         }
     }
 }

@@ -4,11 +4,17 @@
 //! the flow's discrete vector field. Regions, transitions, levels, output and time are the
 //! integrator's, the same for every scheme (Hirani, Wan & Wojtalewicz, Algorithm 2.1).
 
+mod composed;
+mod compositions;
 mod drive;
+mod history;
 mod newton;
+mod propagator;
 mod symmetric;
 mod taylor;
 
+pub use composed::Composed;
+pub use compositions::Composition;
 pub(crate) use drive::{Drive, Stuck};
 pub use symmetric::Symmetric;
 pub use taylor::Taylor;
@@ -43,6 +49,10 @@ impl<Sch: Drive> Scheme for Sch {}
 pub trait OneStep: Clone {
     /// What is remembered from step to step within a segment.
     type Memory<const N: usize>: Clone;
+
+    /// Full steps between corrections of the level, and of the renormalisation of the state's
+    /// remainder; at most 256.
+    const CORRECTION_INTERVAL: u64 = 32;
 
     /// The step size τ.
     fn step_size(&self) -> f64;

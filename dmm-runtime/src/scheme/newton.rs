@@ -6,7 +6,7 @@ use crate::error::StepFailure;
 use crate::linear::{is_finite, solve};
 use crate::scheme::{Correction, Step};
 use crate::statistics::Statistics;
-use crate::system::{Flow, Matrix, Vector};
+use crate::system::{Flow, Matrix, Solvability, Vector};
 
 /// Iterations before Newton's method is given up.
 const LARGEST_ITERATIONS: u64 = 30;
@@ -50,6 +50,27 @@ impl<F, const N: usize> Step<'_, F, N> {
             matrix[(i, i)] += 1.0;
         }
         (increment - field * self.tau, matrix)
+    }
+
+    /// The increment, from a predicted one.
+    #[inline]
+    pub(super) fn increment<const M: usize>(
+        &self,
+        predicted: Vector<f64, N>,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure>
+    where
+        F: Flow<f64, N, M>,
+    {
+        match F::SOLVABILITY {
+            Solvability::Nonlinear => self.solve::<M>(predicted, statistics),
+            // the residual is affine in d: its correction from any d is the solution
+            Solvability::Affine | Solvability::Linear => self
+                .correction::<M>(&Vector::zeros())
+                .map(|correction| correction.delta)
+                .filter(is_finite)
+                .ok_or(StepFailure::NotFinite),
+        }
     }
 
     /// Solves the equation from a predicted increment; if that fails, once more with damping
@@ -171,5 +192,31 @@ impl<F, const N: usize> Step<'_, F, N> {
             delta: -solve(&matrix, &residual)?,
             velocity: solve(&matrix, &right)?,
         })
+    }
+    /// ∂x₁/∂s, where x₀, t₀ and t₁ change with s by `rates`:
+    ///
+    /// (I − τ ∂f^τ/∂x₁) ∂x₁ = (I + τ ∂f^τ/∂x₀) ∂x₀ + f^τ ∂τ + τ (∂f^τ/∂t₀ ∂t₀ + ∂f^τ/∂t₁ ∂t₁).
+    ///
+    /// f^τ is symmetric: its derivatives by the one end are those by the other with the ends
+    /// exchanged.
+    pub(super) fn tangent<const M: usize>(
+        &self,
+        increment: &Vector<f64, N>,
+        (x0_rate, t0_rate, t1_rate): (Vector<f64, N>, f64, f64),
+    ) -> Option<Vector<f64, N>>
+    where
+        F: Flow<f64, N, M>,
+    {
+        let Self { flow, t0, x0, tau } = *self;
+        let (t1, x1) = (t0 + tau, x0 + increment);
+        let (field, by_x1) = flow.linearised(t0, x0, t1, &x1);
+        let (_, by_x0) = flow.linearised(t1, &x1, t0, x0);
+        let mut right = x0_rate + (by_x0 * x0_rate) * tau + field * (t1_rate - t0_rate);
+        if !F::AUTONOMOUS {
+            let by_t0 = flow.time_derivative(t1, &x1, t0, x0) * t0_rate;
+            let by_t1 = flow.time_derivative(t0, x0, t1, &x1) * t1_rate;
+            right += (by_t0 + by_t1) * tau;
+        }
+        solve(&(Matrix::identity() - by_x1 * tau), &right)
     }
 }

@@ -13,11 +13,7 @@ use crate::transition::Locator;
 use crate::walk::interfaces::{Watches, advance, is_near, watches};
 use crate::walk::{SegmentEnd, Walk};
 
-/// The remainder is renormalised and the level corrected every so many steps: the rounding
-/// errors of those in between are together still below the error of evaluating ψ.
-const INTERVAL: u64 = 32;
-/// Steps between adaptions of the level's correction to the size of the state; a multiple of
-/// [`INTERVAL`].
+/// Steps between adaptions of the level's correction to the size of the state.
 const RESCALING: u64 = 256;
 
 impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
@@ -85,7 +81,7 @@ where
                 Err(failure) => break Err(failure),
             };
             let mut next = state.after(&increment);
-            let checks = Obs::LISTENS || node.is_multiple_of(INTERVAL);
+            let checks = Obs::LISTENS || node.is_multiple_of(Sch::CORRECTION_INTERVAL);
             if checks && !is_finite(&next.x) {
                 (state, node) = if Obs::LISTENS { (state, node) } else { finite };
                 break Err(StepFailure::NotFinite);
@@ -98,7 +94,7 @@ where
                 }
                 self.outputs(flow, tau, self.node_time::<M, F>(node))?;
             }
-            if node.is_multiple_of(INTERVAL) {
+            if node.is_multiple_of(Sch::CORRECTION_INTERVAL) {
                 next = next.normalised();
                 if corrects_level {
                     if node.is_multiple_of(RESCALING) {

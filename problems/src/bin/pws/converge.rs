@@ -27,9 +27,10 @@ pub(crate) struct Arguments {
     /// where there are fewer].
     #[arg(long, value_delimiter = ',')]
     after: Option<Vec<usize>>,
-    /// The largest step size.
-    #[arg(long, default_value_t = 1.0 / 64.0, allow_negative_numbers = true)]
-    step: f64,
+    /// The largest step size [default: by the order of the scheme, 1/64 for 2, 1/16 for 4, 1/8
+    /// for 6 and 8].
+    #[arg(long, allow_negative_numbers = true)]
+    step: Option<f64>,
     /// How often it is halved.
     #[arg(long, default_value_t = 6, value_parser = clap::value_parser!(u32).range(1..=20))]
     halvings: u32,
@@ -56,19 +57,21 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     let problem = &*problem;
     let card = problem.card();
     let initial = input::initial(problem, arguments.initial.as_deref())?;
-    if !(arguments.step > 0.0 && arguments.step.is_finite()) {
+    let method = scheme::named(&arguments.scheme, false)?;
+    let step = arguments.step.unwrap_or_else(|| largest_step(method));
+    if !(step > 0.0 && step.is_finite()) {
         return Err(Failure::Request(format!(
             "step size: {} (must be positive and finite)",
-            output::number(arguments.step)
+            output::number(step)
         )));
     }
     let plan = Plan {
-        method: scheme::named(&arguments.scheme, false)?,
+        method,
         after: arguments
             .after
             .clone()
             .map_or_else(|| default_after(problem, &initial), Ok)?,
-        step_sizes: halved(arguments.step, arguments.halvings),
+        step_sizes: halved(step, arguments.halvings),
         t_end: if problem.interfaces().is_empty() {
             arguments.end
         } else {
@@ -96,13 +99,30 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     let picture = output::picture(
         &out,
         "convergence",
-        &picture(problem, plan.method, &study),
+        &picture(problem, method, &study),
         arguments.format.into(),
     )?;
     output::announce(&[picture])?;
     match study.stopped.first() {
         Some(stopped) => Err(Failure::Stopped(stopped.to_string())),
         None => Ok(()),
+    }
+}
+
+/// p, where errors are O(τᵖ).
+fn exponent(method: Method) -> i32 {
+    match method.control() {
+        Control::StepSize { order } => order,
+        Control::Tolerance => 1,
+    }
+}
+
+/// Where the errors of a scheme are about to fall with its order.
+fn largest_step(method: Method) -> f64 {
+    match exponent(method) {
+        ..=3 => 1.0 / 64.0,
+        4 | 5 => 1.0 / 16.0,
+        6.. => 1.0 / 8.0,
     }
 }
 
@@ -222,26 +242,31 @@ fn print(problem: &dyn Problem, study: &Study) -> Result<(), Failure> {
     {
         writeln!(
             out,
-            "k of n: fitted to the k step sizes of n whose error is known and not zero"
+            "k of n: fitted to the k step sizes of n whose error is known and above rounding"
         )?;
     }
     Ok(())
 }
 
-/// How many errors are numbers that have a logarithm.
+/// How many errors have an order fitted to them.
 fn known(errors: &[f64]) -> usize {
-    errors.iter().filter(|error| **error > 0.0).count()
+    errors.iter().filter(|error| **error > FLOOR).count()
 }
 
 /// Errors below this are rounding: the quantity is exact, and there is no order to fit.
 const ROUNDING: f64 = 1e-13;
+/// An order is fitted to errors above this, which rounding has no part in.
+const FLOOR: f64 = 10.0 * ROUNDING;
 
 /// The fitted order, and to how many of the errors it is fitted if not to all.
 pub(crate) fn order(study: &Study, errors: &[f64]) -> String {
     if errors.iter().all(|error| *error < ROUNDING) {
         return "exact".to_owned();
     }
-    let order = fitted_order(&study.step_sizes, errors);
+    let pairs = study.step_sizes.iter().zip(errors);
+    let (step_sizes, above): (Vec<f64>, Vec<f64>) =
+        pairs.filter(|(_, error)| **error > FLOOR).unzip();
+    let order = fitted_order(&step_sizes, &above);
     match known(errors) {
         known if known == errors.len() => format!("{order:.3}"),
         known @ (0 | 1) => format!("none ({known} of {})", errors.len()),
@@ -264,10 +289,7 @@ pub(crate) fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
 }
 
 fn picture(problem: &dyn Problem, method: Method, study: &Study) -> Picture {
-    let order = match method.control() {
-        Control::StepSize { order } => order,
-        Control::Tolerance => 1,
-    };
+    let order = exponent(method);
     let mut panels = Vec::new();
     if study.rows.iter().any(|row| row.crossing.is_some()) {
         let (x, y) = axes("|crossing time − exact|");
