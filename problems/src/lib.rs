@@ -6,7 +6,7 @@
 //!   [`entry`] for systems declared by `pws!`; [`method`]: the schemes by name;
 //! - [`mod@reference`]: solutions known to 32 digits; [`accurate`]: an independent integrator of
 //!   high order, for what the reference does not list;
-//! - [`convergence`] and [`conservation`]: the studies; [`picture`]: their figures;
+//! - [`convergence`], [`conservation`] and [`work_precision`]: the studies; [`picture`]: their figures;
 //! - [`midpoint`] and [`perturbed`]: the explicit midpoint scheme and the perturbed locator
 //!   that Hirani, Wan & Wojtalewicz compare with.
 
@@ -23,3 +23,4 @@ pub mod reference;
 pub mod registry;
 pub mod systems;
 pub mod truth;
+pub mod work_precision;

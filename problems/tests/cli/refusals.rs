@@ -53,6 +53,8 @@ fn senseless_values_are_refused() {
         "{text}"
     );
     refusal(&["converge", "harmonic", "--scheme", "taylor"]);
+    assert!(refusal(&["bench", "elliptic", "--end", "-1"]).contains("must be positive"));
+    refusal(&["bench", "elliptic", "--rounds", "0"]);
     assert!(refusal(&["converge", "harmonic", "--after", "5000"]).contains("transitions"));
     refusal(&["converge", "harmonic", "--step=-1"]);
 }

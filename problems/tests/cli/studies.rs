@@ -24,6 +24,32 @@ fn converge_prints_orders_and_writes_errors() {
 }
 
 #[test]
+fn bench_measures_time_against_error() {
+    let results = Results::new();
+    let call = ["bench", "elliptic", "--end", "2", "--rounds", "2"];
+    let text = results.said(&call);
+    assert!(text.contains("elliptic, t = 2"), "{text}");
+    let (header, rows) = results.table("work_precision.csv");
+    let column = |name: &str| header.iter().position(|known| known == name).unwrap();
+    for scheme in ["symmetric", "taylor"] {
+        let own: Vec<_> = rows
+            .iter()
+            .filter(|row| row[column("scheme")] == scheme)
+            .collect();
+        let value = |row: &[String], name| row[column(name)].parse::<f64>().unwrap();
+        assert!(own.iter().all(|row| value(row, "transitions") == 2.0));
+        assert!(own.iter().all(|row| value(row, "seconds_min") > 0.0));
+        // Taylor's last setting reaches rounding; the other's is the last that is not too long
+        let last = value(own[own.len() - 1], "error");
+        assert!(
+            last < if scheme == "taylor" { 1e-13 } else { 1e-8 },
+            "{last:e}"
+        );
+    }
+    assert!(results.path("work_precision.svg").exists());
+}
+
+#[test]
 fn the_studies_take_a_scheme() {
     let results = Results::new();
     let call = ["converge", "elliptic", "--after", "0", "--halvings", "2"];

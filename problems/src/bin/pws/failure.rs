@@ -5,6 +5,7 @@ use std::path::Path;
 
 use dmm_problems::convergence::StudyError;
 use dmm_problems::registry::Unknown;
+use dmm_problems::work_precision::GoalError;
 use thiserror::Error;
 
 /// Why a command ends without success.
@@ -67,6 +68,15 @@ impl From<StudyError> for Failure {
         match error {
             StudyError::Input(_) | StudyError::TooFew { .. } => Self::Request(error.to_string()),
             _ => Self::Stopped(error.to_string()),
+        }
+    }
+}
+
+impl From<GoalError> for Failure {
+    fn from(error: GoalError) -> Self {
+        match error {
+            GoalError::Time(_) => Self::Request(error.to_string()),
+            GoalError::Truth(_) => Self::Stopped(error.to_string()),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! output. What is wrong is one line on standard error: exit status 2 if the request was
 //! (options, names, files), 1 if the integration stopped before its end.
 
+mod bench;
 mod conserve;
 mod converge;
 mod explain;
@@ -49,6 +50,8 @@ enum Command {
     Converge(converge::Arguments),
     /// Measure how well every problem's conserved quantities are kept over a long run.
     Conserve(conserve::Arguments),
+    /// Measure the time of every scheme against its final error.
+    Bench(bench::Arguments),
     /// Reproduce Figs 2-8 of Hirani, Wan & Wojtalewicz.
     Paper(paper::Arguments),
 }
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(arguments),
         Command::Converge(arguments) => converge::converge(arguments),
         Command::Conserve(arguments) => conserve::conserve(arguments),
+        Command::Bench(arguments) => bench::bench(arguments),
         Command::Paper(arguments) => paper::paper(arguments),
     };
     match result {

@@ -1,0 +1,204 @@
+//! `pws bench`
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use dmm_problems::method::{Control, Method};
+use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
+use dmm_problems::problem::Problem;
+use dmm_problems::registry;
+use dmm_problems::work_precision::{Goal, Setting, fastest};
+use indicatif::ProgressBar;
+
+use crate::failure::Failure;
+use crate::input::{self, FormatOption};
+use crate::output::{self, Csv, Table};
+use crate::progress;
+
+/// What to measure.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Names of the problems [default: all with a reference solution].
+    problems: Vec<String>,
+    /// Time at which states are compared [default: 100, or the reference's last sample before
+    /// it; 10 without a reference].
+    #[arg(long, allow_negative_numbers = true)]
+    end: Option<f64>,
+    /// How often each setting is timed.
+    #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: u32,
+    /// Directory of the results.
+    #[arg(long, default_value = "output")]
+    out: PathBuf,
+    /// How the picture is stored.
+    #[arg(long, value_enum, default_value = "svg")]
+    format: FormatOption,
+}
+
+/// Errors for which the table tells the time.
+const LEVELS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
+/// Panels in a row of the picture.
+const COLUMNS: usize = 3;
+/// About the steps in a round, as far as progress is concerned.
+const WORK: f64 = 1e8;
+
+/// Measures, prints the table, writes CSV and picture.
+pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
+    let problems = problems(arguments)?;
+    let goals = problems
+        .iter()
+        .map(|problem| Goal::of(&**problem, arguments.end).map_err(Failure::from))
+        .collect::<Result<Vec<_>, _>>()?;
+    output::directory(&arguments.out)?;
+    let mut csv = Csv::create(arguments.out.join("work_precision.csv"), HEADER)?;
+    let mut table = Table::new(2, header());
+    let mut panels = Vec::new();
+    let rounds = u64::from(arguments.rounds) * problems.len() as u64;
+    let bar = progress::bar(rounds, WORK);
+    for (problem, goal) in problems.iter().zip(&goals) {
+        let settings = measure(&**problem, goal, arguments.rounds, &bar);
+        write(&mut csv, &**problem, goal, &settings)?;
+        add(&mut table, &**problem, goal, &settings);
+        panels.push(panel(&**problem, goal, &settings));
+    }
+    bar.finish_and_clear();
+    table.print()?;
+    writeln!(
+        std::io::stdout(),
+        "milliseconds until the final error is at most that: minimum, median and maximum of {} runs \
+         in turn",
+        arguments.rounds
+    )?;
+    output::announce(&[csv.finish()?])?;
+    output::announce(&[picture(panels, &arguments.out, arguments.format)?])?;
+    Ok(())
+}
+
+fn problems(arguments: &Arguments) -> Result<Vec<Box<dyn Problem>>, Failure> {
+    if arguments.problems.is_empty() {
+        let mut all = registry::all();
+        all.retain(|problem| problem.card().reference.is_some());
+        return Ok(all);
+    }
+    let names = arguments.problems.iter();
+    names.map(|name| input::problem(name, &[])).collect()
+}
+
+fn measure(problem: &dyn Problem, goal: &Goal, rounds: u32, bar: &ProgressBar) -> Vec<Setting> {
+    let methods: Vec<Method> = Method::all().collect();
+    bar.set_message(problem.card().name);
+    goal.measure(problem, &methods, rounds, || bar.inc(1))
+}
+
+const HEADER: [&str; 12] = [
+    "problem",
+    "t_end",
+    "exact",
+    "scheme",
+    "control",
+    "value",
+    "error",
+    "steps",
+    "transitions",
+    "seconds_min",
+    "seconds_median",
+    "seconds_max",
+];
+
+/// What decides the steps of a scheme, in a word.
+fn control(method: Method) -> &'static str {
+    match method.control() {
+        Control::StepSize { .. } => "step size",
+        Control::Tolerance => "tolerance",
+    }
+}
+
+fn write(
+    csv: &mut Csv,
+    problem: &dyn Problem,
+    goal: &Goal,
+    settings: &[Setting],
+) -> Result<(), Failure> {
+    for setting in settings {
+        let mut row = vec![
+            problem.card().name.to_owned(),
+            goal.t.to_string(),
+            goal.origin.describe().to_owned(),
+            setting.method.name().to_owned(),
+            control(setting.method).to_owned(),
+            setting.control.to_string(),
+            setting.error.to_string(),
+            setting.statistics.steps.to_string(),
+            setting.statistics.transitions.to_string(),
+        ];
+        row.extend(setting.spread().map(|seconds| seconds.to_string()));
+        csv.row(row)?;
+    }
+    Ok(())
+}
+
+fn header() -> Vec<String> {
+    let levels = LEVELS.map(|level| format!("error ≤ {level:e}"));
+    ["problem".to_owned(), "scheme".to_owned()]
+        .into_iter()
+        .chain(levels)
+        .collect()
+}
+
+/// A row a scheme.
+fn add(table: &mut Table, problem: &dyn Problem, goal: &Goal, settings: &[Setting]) {
+    for method in Method::all() {
+        let name = format!("{}, t = {}", problem.card().name, short(goal.t));
+        let cells = LEVELS.map(|level| match fastest(settings, method, level) {
+            Some(setting) => {
+                let [least, median, most] = setting.spread().map(|seconds| 1e3 * seconds);
+                format!("{least:.3} {median:.3} {most:.3}")
+            }
+            None => "–".to_owned(),
+        });
+        table.row([name, label(method)].into_iter().chain(cells));
+    }
+}
+
+/// A time of comparison: whole, but for those at which something happens.
+fn short(t: f64) -> String {
+    match t.fract() == 0.0 {
+        true => output::number(t),
+        false => format!("{t:.3}"),
+    }
+}
+
+/// A scheme, apart from its other form of the same name.
+fn label(method: Method) -> String {
+    let other = Method::find(method.name(), method.control() != Control::Tolerance);
+    match other == Some(method) {
+        true => method.name().to_owned(),
+        false => format!("{}, by {}", method.name(), control(method)),
+    }
+}
+
+fn panel(problem: &dyn Problem, goal: &Goal, settings: &[Setting]) -> Panel {
+    let title = format!("{}, t = {}", problem.card().name, short(goal.t));
+    let mut panel = Panel::new(
+        title,
+        Axis::new("final error", Scale::Decades),
+        Axis::new("time (s)", Scale::Decades),
+    );
+    for (k, method) in Method::all().enumerate() {
+        let own = settings.iter().filter(|setting| setting.method == method);
+        let points = own
+            .map(|setting| (setting.error, setting.spread()[0]))
+            .collect();
+        let colour = COLOURS[k % COLOURS.len()];
+        panel.curve(Some(label(method)), points, Stroke::Marked, colour);
+    }
+    panel
+}
+
+fn picture(panels: Vec<Panel>, out: &Path, format: FormatOption) -> Result<PathBuf, Failure> {
+    let picture = Picture {
+        columns: panels.len().clamp(1, COLUMNS),
+        ..Picture::row("time against final error", panels)
+    };
+    output::picture(out, "work_precision", &picture, format.into())
+}
