@@ -1,0 +1,208 @@
+//! The library's side of a comparison with other integrators: describes problems and times
+//! runs, for a program that reads and writes lines. `peers/compare.py` is one.
+//!
+//! | request | answer, one line of JSON |
+//! |---|---|
+//! | `schemes` | names of the schemes that conserve, and whether they take a tolerance |
+//! | `describe PROBLEM` | states, parameters, initial value, formulas of f and g, reference |
+//! | `run PROBLEM SCHEME CONTROL T_END REPEATS` | final state, steps, transitions, seconds of each repeat |
+//! | `ensemble PROBLEM SCHEME CONTROL T_END FILE REPEATS` | final states and seconds of all runs of a file |
+//!
+//! `FILE` is a CSV file with a run a row; its columns are states and parameters. `CONTROL` is `step=1e-3` or `tolerance=1e-9`. What cannot be answered is
+//! `{"error": "…"}`. A run starts from the problem's initial value, and what is timed is all of
+//! it: nothing is kept from one to the next.
+
+use std::error::Error;
+use std::io::{BufRead, Write};
+use std::time::Instant;
+
+use dmm_compiler::algebra::{Id, to_text};
+use dmm_compiler::diagnostics::Diagnostics;
+use dmm_compiler::model::{Model, Sign};
+use dmm_compiler::{check, syntax};
+use dmm_problems::method::{Control, Method};
+use dmm_problems::problem::{Problem, Run};
+use dmm_problems::reference::Reference;
+use dmm_problems::registry;
+use serde_json::{Value, json};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut out = std::io::stdout().lock();
+    for line in std::io::stdin().lock().lines() {
+        let line = line?;
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let answer = answer(&words).unwrap_or_else(|error| json!({ "error": error.to_string() }));
+        writeln!(out, "{answer}")?;
+        out.flush()?;
+    }
+    Ok(())
+}
+
+fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
+    match words {
+        ["schemes"] => Ok(schemes()),
+        ["describe", name] => describe(&*registry::find(name)?),
+        ["run", name, scheme, control, t_end, repeats] => {
+            let problem = registry::find(name)?;
+            let run = request(&*problem, scheme, control, t_end.parse()?)?;
+            timed(&*problem, &run, repeats.parse()?)
+        }
+        ["ensemble", name, scheme, control, t_end, file, repeats] => {
+            let problem = registry::find(name)?;
+            let run = request(&*problem, scheme, control, t_end.parse()?)?;
+            let members = members(&*problem, &run, file)?;
+            ensemble(&members, repeats.parse()?)
+        }
+        _ => Err(format!("no such request: {}", words.join(" ")).into()),
+    }
+}
+
+fn schemes() -> Value {
+    let scheme = |method: &Method| {
+        json!({
+            "name": method.name(),
+            "adaptive": method.control() == Control::Tolerance,
+        })
+    };
+    Method::CONSERVING.iter().map(scheme).collect()
+}
+
+fn request(
+    problem: &dyn Problem,
+    scheme: &str,
+    control: &str,
+    t_end: f64,
+) -> Result<Run, Box<dyn Error>> {
+    let (kind, value) = control.split_once('=').ok_or("no control")?;
+    let value: f64 = value.parse()?;
+    let method = Method::find(scheme, kind == "tolerance").ok_or("unknown scheme")?;
+    let fits = match method.control() {
+        Control::Tolerance => kind == "tolerance",
+        Control::StepSize { .. } => kind == "step",
+    };
+    if !fits {
+        return Err(format!("{scheme} does not take a {kind}").into());
+    }
+    Ok(Run {
+        method,
+        step_size: value,
+        tolerance: value,
+        t_end,
+        ..problem.default_run()
+    })
+}
+
+fn timed(problem: &dyn Problem, run: &Run, repeats: usize) -> Result<Value, Box<dyn Error>> {
+    let mut seconds = Vec::with_capacity(repeats);
+    let mut finish = None;
+    for _ in 0..repeats.max(1) {
+        let start = Instant::now();
+        let finished = std::hint::black_box(problem.integrate_silently(run)?);
+        seconds.push(start.elapsed().as_secs_f64());
+        finish = Some(finished);
+    }
+    let finish = finish.ok_or("nothing was run")?;
+    Ok(json!({
+        "x": finish.x,
+        "steps": finish.statistics.steps,
+        "transitions": finish.statistics.transitions,
+        "seconds": seconds,
+    }))
+}
+
+/// A run of an ensemble.
+struct Member {
+    problem: Box<dyn Problem>,
+    run: Run,
+}
+
+/// The runs of a file.
+fn members(problem: &dyn Problem, run: &Run, file: &str) -> Result<Vec<Member>, Box<dyn Error>> {
+    let mut reader = csv::Reader::from_path(file)?;
+    let names = reader.headers()?.clone();
+    let mut members = Vec::new();
+    for row in reader.records() {
+        let (mut problem, mut run) = (problem.duplicate(), run.clone());
+        for (name, value) in names.iter().zip(&row?) {
+            let value = value.parse()?;
+            let state = problem.states().iter().position(|state| *state == name);
+            match state.and_then(|state| run.initial.get_mut(state)) {
+                Some(initial) => *initial = value,
+                None if problem.set_parameter(name, value) => {}
+                None => return Err(format!("no state or parameter `{name}`").into()),
+            }
+        }
+        members.push(Member { problem, run });
+    }
+    Ok(members)
+}
+
+/// The runs one after another.
+fn ensemble(members: &[Member], repeats: usize) -> Result<Value, Box<dyn Error>> {
+    let mut seconds = Vec::with_capacity(repeats);
+    let mut states = Vec::new();
+    for _ in 0..repeats.max(1) {
+        let start = Instant::now();
+        states = members
+            .iter()
+            .map(|Member { problem, run }| Ok(problem.integrate_silently(run)?.x))
+            .collect::<Result<Vec<_>, Box<dyn Error>>>()?;
+        seconds.push(start.elapsed().as_secs_f64());
+    }
+    Ok(json!({ "x": states, "seconds": seconds }))
+}
+
+fn describe(problem: &dyn Problem) -> Result<Value, Box<dyn Error>> {
+    let model = model(problem)?;
+    let formula = |id: Id| -> Result<String, Box<dyn Error>> {
+        let text = to_text(&model.dag, id);
+        match text.contains('…') {
+            false => Ok(text),
+            true => Err("a formula is too long to be written out".into()),
+        }
+    };
+    let regions = model.regions.iter().map(|region| {
+        let sides = region.sides.iter().map(|side| match side.sign {
+            Sign::Negative => -1,
+            Sign::Positive => 1,
+        });
+        let field = region.field.iter().map(|id| formula(*id));
+        Ok(json!({
+            "name": region.ident.to_string(),
+            "sides": sides.collect::<Vec<i32>>(),
+            "field": field.collect::<Result<Vec<_>, Box<dyn Error>>>()?,
+        }))
+    });
+    let interfaces = model.interfaces.iter();
+    let interfaces = interfaces.map(|interface| formula(interface.switching_function));
+    let parameters: Vec<Value> = problem.parameters().iter().map(|p| json!(p)).collect();
+    Ok(json!({
+        "name": problem.card().name,
+        "states": problem.states(),
+        "parameters": parameters,
+        "initial": problem.card().initial,
+        "regions": regions.collect::<Result<Vec<_>, Box<dyn Error>>>()?,
+        "interfaces": interfaces.collect::<Result<Vec<_>, _>>()?,
+        "samples": samples(problem)?,
+    }))
+}
+
+/// The names resolved, from the declaration.
+fn model(problem: &dyn Problem) -> Result<Model, Box<dyn Error>> {
+    let mut diagnostics = Diagnostics::new();
+    let model = syntax::parse(problem.declaration().parse()?, &mut diagnostics)
+        .and_then(|declaration| check::resolve(declaration, &mut diagnostics));
+    model.ok_or_else(|| diagnostics.messages().join("; ").into())
+}
+
+fn samples(problem: &dyn Problem) -> Result<Vec<Value>, Box<dyn Error>> {
+    let samples = Reference::of(problem)?.map_or_else(Vec::new, |reference| reference.samples);
+    let sample = |sample: &dmm_problems::reference::Sample| {
+        json!({
+            "t": sample.t,
+            "x": sample.x,
+            "crossings": sample.crossings_before,
+        })
+    };
+    Ok(samples.iter().map(sample).collect())
+}

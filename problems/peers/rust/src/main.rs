@@ -1,0 +1,116 @@
+//! Integrators in Rust on the problems of this repository, timed on request as the library is:
+//! see `examples/timed.rs` in `problems` for the protocol, of which `schemes` and `run` are
+//! answered.
+
+mod differential_equations;
+mod diffsol;
+mod sides;
+
+use std::error::Error;
+use std::io::{BufRead, Write};
+use std::time::Instant;
+
+use dmm_problems::problem::Card;
+use dmm_problems::systems::*;
+use dmm_runtime::System;
+use serde_json::{Value, json};
+
+use sides::Sides;
+
+/// How a run ended.
+pub struct End<const N: usize> {
+    x: [f64; N],
+    steps: u64,
+    crossings: u64,
+}
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// The integrators.
+const PEERS: [&str; 2] = ["diffsol-tsit45", "differential-equations-rkv989e"];
+
+fn main() -> Outcome<()> {
+    let mut out = std::io::stdout().lock();
+    for line in std::io::stdin().lock().lines() {
+        let line = line?;
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let answer = match words.as_slice() {
+            ["schemes"] => Ok(schemes()),
+            ["run", problem, peer, tolerance, t_end, repeats] => {
+                run(problem, peer, tolerance, t_end, repeats)
+            }
+            _ => Err(format!("no such request: {line}").into()),
+        };
+        let answer = answer.unwrap_or_else(|error| json!({ "error": error.to_string() }));
+        writeln!(out, "{answer}")?;
+        out.flush()?;
+    }
+    Ok(())
+}
+
+fn schemes() -> Value {
+    let scheme = |name: &&str| json!({ "name": name, "adaptive": true });
+    PEERS.iter().map(scheme).collect()
+}
+
+fn run(problem: &str, peer: &str, tolerance: &str, t_end: &str, repeats: &str) -> Outcome<Value> {
+    let tolerance = tolerance.strip_prefix("tolerance=");
+    let task = Task {
+        peer,
+        tolerance: tolerance.ok_or("no tolerance")?.parse()?,
+        t_end: t_end.parse()?,
+        repeats: repeats.parse()?,
+    };
+    match problem {
+        "harmonic" => task.timed(Harmonic::default(), &harmonic::CARD),
+        "elliptic" => task.timed(Elliptic::default(), &elliptic::CARD),
+        "pendulum" => task.timed(Pendulum::default(), &pendulum::CARD),
+        "lotka_volterra_periodic" => {
+            task.timed(LotkaVolterra::default(), &lotka_volterra_periodic::CARD)
+        }
+        "damped" => task.timed(Damped::default(), &damped::CARD),
+        "spiral" => task.timed(Spiral::default(), &spiral::CARD),
+        "rigid_body" => task.timed(RigidBody::default(), &rigid_body::CARD),
+        "kepler_refraction" => task.timed(KeplerRefraction::default(), &kepler_refraction::CARD),
+        _ => Err(format!("no problem `{problem}` here").into()),
+    }
+}
+
+struct Task<'a> {
+    peer: &'a str,
+    tolerance: f64,
+    t_end: f64,
+    repeats: usize,
+}
+
+impl Task<'_> {
+    fn timed<Sys: System<N>, const N: usize>(&self, system: Sys, card: &Card) -> Outcome<Value> {
+        let initial: [f64; N] = card.initial.try_into()?;
+        let mut seconds = Vec::new();
+        let mut last = None;
+        for _ in 0..self.repeats.max(1) {
+            let sides = Sides::new(&system, &initial);
+            let start = Instant::now();
+            let end = match self.peer {
+                "diffsol-tsit45" => diffsol::tsit45(&sides, initial, self.t_end, self.tolerance)?,
+                "differential-equations-rkv989e" => {
+                    differential_equations::rkv989e(&sides, initial, self.t_end, self.tolerance)?
+                }
+                other => return Err(format!("no integrator `{other}` here").into()),
+            };
+            seconds.push(start.elapsed().as_secs_f64());
+            last = Some(end);
+        }
+        let End {
+            x,
+            steps,
+            crossings,
+        } = last.ok_or("nothing was run")?;
+        Ok(json!({
+            "x": x.as_slice(),
+            "steps": steps,
+            "transitions": crossings,
+            "seconds": seconds,
+        }))
+    }
+}
