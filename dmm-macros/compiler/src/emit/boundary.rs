@@ -133,6 +133,13 @@ fn implementation(
         });
         select(arms.collect(), quote!(#scalar::from_f64(f64::NAN)))
     };
+    let interfaces = &emission.scheme.interfaces;
+    let affine = interfaces.iter().all(|interface| interface.affine);
+    let affine = affine.then(|| {
+        quote!(
+            const AFFINE: bool = true;
+        )
+    });
     let value = one_value(|nodes| nodes.value);
     let size = one_value(|nodes| nodes.size);
     let gradients = nodes.iter().map(|nodes| {
@@ -160,6 +167,7 @@ fn implementation(
                 const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
                 BY_REGION[REGION]
             };
+            #affine
             type Each<T: ::core::marker::Copy> = [T; COUNT];
             #[inline]
             fn each<T: ::core::marker::Copy>(value: impl FnMut(usize) -> T) -> [T; COUNT] {

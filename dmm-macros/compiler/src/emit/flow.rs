@@ -90,6 +90,11 @@ fn implementation(
         Solvability::Linear => quote!(Linear),
     };
     let autonomous = scheme.autonomous;
+    let affine = scheme.affine.then(|| {
+        quote!(
+            const AFFINE: bool = true;
+        )
+    });
     let boundary = boundary(emission, region);
     let point = point_functions(functions, nodes, scalar);
     let step = step_functions(functions, &nodes.discrete, scalar);
@@ -98,6 +103,7 @@ fn implementation(
         #[automatically_derived]
         impl<#scalar: #bound> #flow<#scalar, #states, #conserved> for #name<#scalar> {
             const AUTONOMOUS: bool = #autonomous;
+            #affine
             const SOLVABILITY: #solvability = #solvability::#kind;
             #boundary
             #point

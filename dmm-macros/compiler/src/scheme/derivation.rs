@@ -1,6 +1,7 @@
 //! Model → scheme: the multipliers and their divided differences of every region, f^τ from the
 //! first strategy that fits, and the proofs of what was derived.
 
+use super::affine::is_affine;
 use super::strategy::{Context, choose, midpoint};
 use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
 use crate::algebra::{
@@ -17,14 +18,7 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
     let interfaces: Vec<SwitchingScheme> = model
         .interfaces
         .iter()
-        .map(|interface| SwitchingScheme {
-            time_derivative: differentiate(
-                &mut model.dag,
-                interface.switching_function,
-                &Model::time(),
-            ),
-            gradient: gradient(&mut model.dag, interface.switching_function, &states),
-        })
+        .map(|interface| switching(&mut model.dag, interface.switching_function, &states))
         .collect();
     let before = diagnostics.len();
     let regions = (0..model.regions.len())
@@ -35,6 +29,16 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
         interfaces,
         regions,
     })
+}
+
+/// The derivatives of a switching function.
+fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
+    let arguments = [states, &[Model::time()]].concat();
+    SwitchingScheme {
+        time_derivative: differentiate(dag, function, &Model::time()),
+        gradient: gradient(dag, function, states),
+        affine: is_affine(dag, [function], &arguments),
+    }
 }
 
 fn derive_region(
@@ -85,6 +89,8 @@ fn derive_region(
         levels: levels(dag, region, interfaces),
         ..proofs
     };
+    let field = region.field.iter().copied();
+    let affine = !dag.variables(field.clone()).contains(&time) && is_affine(dag, field, states);
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
     RegionScheme {
         multiplier,
@@ -95,6 +101,7 @@ fn derive_region(
         refusals,
         solvability,
         autonomous,
+        affine,
         proofs,
     }
 }

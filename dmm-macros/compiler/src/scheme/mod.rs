@@ -11,6 +11,7 @@
 //! Λ^τ and ∂ₜ^τψ are the symmetric divided differences of ψ; f^τ is made from them by the
 //! first [`Strategy`] that fits, and what was derived is proved before it is handed on.
 
+mod affine;
 mod derivation;
 mod findings;
 mod proofs;
@@ -43,6 +44,8 @@ pub struct SwitchingScheme {
     pub time_derivative: Id,
     /// ∇g
     pub gradient: Vec<Id>,
+    /// Whether g is affine in t and x: ∂ₜg and ∇g depend on parameters alone.
+    pub affine: bool,
 }
 
 /// The derived scheme of one region. Ends of a step are the variables `x₀`, `x₁`, `t₀`, `t₁`.
@@ -64,6 +67,8 @@ pub struct RegionScheme {
     pub solvability: Solvability,
     /// Whether neither f nor ψ depends on the time.
     pub autonomous: bool,
+    /// Whether f = A x + b with A and b depending on parameters alone, so that the flow is exact.
+    pub affine: bool,
     /// What was proved of the scheme.
     pub proofs: Proofs,
 }

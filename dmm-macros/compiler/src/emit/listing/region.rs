@@ -237,6 +237,14 @@ impl<'a> Lister<'a> {
             ..titled("step ", "x₁ = x₀ + τ f^τ")
         };
         self.composer.add(section, Vec::new());
+        if self.derived.affine {
+            let how = "A and b depend on parameters alone; the solution is a matrix exponential";
+            let section = Section {
+                remark: words(how),
+                ..titled("exact flow ", "f = A x + b")
+            };
+            self.composer.add(section, Vec::new());
+        }
         let rows = self.residual();
         let title = titled("residual ", "F(x₁) = x₁ − x₀ − τ f^τ");
         self.composer.add(title, rows);
