@@ -81,6 +81,20 @@ impl<const N: usize, const M: usize> Level<N, M> {
         -MinimalNorm::new(&multiplier, &multiplier).damped(&residual, &damping)
     }
 
+    /// Whether ψ is further from its level than the rounding errors of evaluating it: a state that
+    /// is better than them is not to be moved by them.
+    pub(crate) fn strays<F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        time: Time,
+        state: &State<N>,
+    ) -> bool {
+        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let residual = (psi - self.reference) + multiplier * remainder(flow, time, state);
+        let mut errors = residual.iter().zip(&self.noise);
+        errors.any(|(residual, noise)| residual.abs() > 0.25 * noise)
+    }
+
     /// The state that a step has come to, put back on the level if it `corrects`.
     #[inline(always)]
     pub(crate) fn reached<F: Flow<f64, N, M>>(

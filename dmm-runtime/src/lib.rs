@@ -39,6 +39,7 @@
 
 mod end;
 mod error;
+mod exact;
 mod integrator;
 mod level;
 mod linear;
@@ -70,7 +71,9 @@ pub use minimal_norm::MinimalNorm;
 pub use observer::{Observer, Point, Transition};
 pub use recording::Recording;
 pub use scalar::Scalar;
-pub use scheme::{Composed, Composition, Correction, OneStep, Scheme, Step, Symmetric, Taylor};
+pub use scheme::{
+    Best, Composed, Composition, Correction, OneStep, Scheme, Step, Symmetric, Taylor,
+};
 pub use solution::{Interrupted, Solution};
 pub use state::State;
 pub use statistics::Statistics;

@@ -150,6 +150,9 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
     const AUTONOMOUS: bool;
     /// How the implicit equation of a step is solved.
     const SOLVABILITY: Solvability;
+    /// Whether f = A x + b with A and b depending on parameters alone. Then they can be read off
+    /// f at the origin and far out along each axis, and the flow is exact.
+    const AFFINE: bool = false;
 
     /// The interfaces that bound the region.
     fn boundary(&self) -> &Self::Boundary;
@@ -216,6 +219,8 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
 pub trait Boundary<S: Scalar, const N: usize>: Clone {
     /// The indices of the interfaces that bound the region, with its side.
     const SIDES: &'static [(usize, Side)];
+    /// Whether every g is affine in t and x: ∂ₜg and ∇g depend on parameters alone.
+    const AFFINE: bool = false;
 
     /// One value for each entry of [`Boundary::SIDES`]: the array `[T; SIDES.len()]`.
     type Each<T: Copy>: AsRef<[T]> + AsMut<[T]>;
@@ -259,6 +264,7 @@ pub struct Unbounded;
 
 impl<S: Scalar, const N: usize> Boundary<S, N> for Unbounded {
     const SIDES: &'static [(usize, Side)] = &[];
+    const AFFINE: bool = true;
 
     type Each<T: Copy> = [T; 0];
 

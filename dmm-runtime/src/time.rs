@@ -14,10 +14,13 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// a·b = p + e exactly, barring overflow (Dekker 1971).
 ///
-/// Splitting instead of a fused multiply-add: without the target feature the latter is a
-/// library call.
+/// By splitting where the target has no fused multiply-add: there that is a library call.
 #[inline]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
+    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+        let p = a * b;
+        return (p, a.mul_add(b, -p));
+    }
     const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
     let split = |v: f64| {
         let c = SPLITTER * v;

@@ -4,6 +4,7 @@
 //! the flow's discrete vector field. Regions, transitions, levels, output and time are the
 //! integrator's, the same for every scheme (Hirani, Wan & Wojtalewicz, Algorithm 2.1).
 
+mod best;
 mod composed;
 mod compositions;
 mod drive;
@@ -13,6 +14,7 @@ mod propagator;
 mod symmetric;
 mod taylor;
 
+pub use best::Best;
 pub use composed::Composed;
 pub use compositions::Composition;
 pub(crate) use drive::{Drive, Stuck};

@@ -154,6 +154,18 @@ struct Search {
 }
 
 impl Search {
+    /// The coefficients on two parts of an interval, and where it is split: in the middle, or
+    /// beside it where p is zero within rounding errors there, so that what lies below zero by
+    /// less than those is not cut in two, each with a change of sign.
+    fn split(&self, values: &[f64]) -> (f64, [Bernstein; 2]) {
+        const PLACES: [f64; 5] = [0.5, 0.375, 0.625, 0.25, 0.75];
+        let split = |at: f64| (at, parts(values, at));
+        let is_clear =
+            |(_, [_, (right, _)]): &(f64, [Bernstein; 2])| right[0].abs() > self.rounding;
+        let mut places = PLACES.into_iter().map(split);
+        places.find(is_clear).unwrap_or_else(|| split(PLACES[0]))
+    }
+
     fn first(
         &mut self,
         (values, count): &Bernstein,
@@ -178,7 +190,8 @@ impl Search {
             self.touches += 1;
             return None;
         }
-        let middle = f64::midpoint(lower, upper);
+        let (at, [left, right]) = self.split(values);
+        let middle = lower + at * (upper - lower);
         if depth == 0 || middle <= lower || middle >= upper {
             if end <= 0.0 {
                 return Some((lower, upper));
@@ -186,7 +199,6 @@ impl Search {
             self.touches += 1;
             return None;
         }
-        let (left, right) = halves(values);
         if let Some(found) = self.first(&left, (lower, middle), depth - 1) {
             return Some(found);
         }
@@ -194,18 +206,19 @@ impl Search {
     }
 }
 
-/// The coefficients on the two halves (de Casteljau).
-fn halves(values: &[f64]) -> (Bernstein, Bernstein) {
+/// The coefficients on the two parts of an interval that is split `at` a part of it (de
+/// Casteljau).
+fn parts(values: &[f64], at: f64) -> [Bernstein; 2] {
     let count = values.len();
     let (mut left, mut right) = ([0.0; MOST], [0.0; MOST]);
     right[..count].copy_from_slice(values);
     for (round, left) in left.iter_mut().take(count).enumerate() {
         *left = right[0];
         for j in 0..count - 1 - round {
-            right[j] = f64::midpoint(right[j], right[j + 1]);
+            right[j] += at * (right[j + 1] - right[j]);
         }
     }
-    ((left, count), (right, count))
+    [(left, count), (right, count)]
 }
 
 #[cfg(test)]
@@ -278,6 +291,17 @@ mod tests {
         }
         // 1 + h² − h, with complex roots near the interval
         assert_eq!(first_root(&[1.0, -1.0, 1.0], 1.0, 1e-15).first, None);
+    }
+
+    #[test]
+    fn what_is_less_than_rounding_below_zero_is_a_touch() {
+        for middle in [0.5, 0.25, 0.75, 0.3] {
+            let mut coefficients = with_roots(&[middle, middle]);
+            coefficients[0] -= 1e-16;
+            let found = first_root(&coefficients, 1.0, 1e-14);
+            assert_eq!(found.first, None, "{middle}");
+            assert!(found.touches > 0);
+        }
     }
 
     #[test]

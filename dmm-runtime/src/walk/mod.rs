@@ -8,6 +8,7 @@ mod arrive;
 mod expand;
 mod glance;
 mod interfaces;
+mod march;
 mod run;
 mod steps;
 

@@ -1,0 +1,402 @@
+//! The ladder of step sizes of a region, h/8, h/4 … 2h, 4h …, with their propagators and bounds,
+//! computed when they are first needed and kept for the run.
+//!
+//! A segment starts with h, about 1/|λ| of the largest eigenvalue: over h everything is smooth,
+//! and g⁗ is bounded by |f| at the start of the step. After a step the fastest modes of a stiff
+//! region have decayed, and the next one may be twice as long: on a rung above h the bound of g⁗
+//! is a row times |f| *before the last step*, max |c A³ exp(sA)| over the times s that this step
+//! is later than that. It is small where what is fast has decayed, or is not seen by g, and large
+//! where something oscillates: then the step remains as short as that demands.
+
+use std::any::Any;
+use std::fmt;
+
+use super::pair::Pair;
+use super::propagator::{Coefficients, Propagator, Rows};
+use crate::linear::is_finite;
+use crate::state::State;
+use crate::system::{Boundary, Flow, Vector};
+
+use super::short::{Powers, Short, powers};
+
+/// h times the spectral radius of A: from an interface to the next one, half a turn of an
+/// oscillator, in two steps.
+const REACH: f64 = 1.8;
+/// The rung of h.
+pub(crate) const FIRST: usize = 3;
+/// The lowest rung is so many times smaller.
+const PARTS: usize = 1 << FIRST;
+/// Halvings of a first step whose series does not converge.
+const MOST_HALVINGS: u32 = 64;
+
+/// Terms of the series of g next to a root.
+const TERMS: usize = 8;
+
+/// A switching function g = c·x + γt + d.
+#[derive(Clone, Debug)]
+struct Switching<const N: usize> {
+    /// c
+    gradient: Vector<f64, N>,
+    /// c Aᵏ⁻¹/k!, k from 1.
+    terms: [Vector<f64, N>; TERMS],
+    /// max |c A³ exp(sA)| over h.
+    fresh: Vector<f64, N>,
+    /// The same, s from half a step to two steps, on the rungs above h.
+    settled: Vec<Vector<f64, N>>,
+    /// Σ|cᵢ||Aᵢⱼ|, and |γ| + Σ|cᵢ bᵢ|: |dg/dt| is made of such terms.
+    rate: Vector<f64, N>,
+    offset: f64,
+}
+
+/// The ladder of a region.
+#[derive(Clone, Debug)]
+pub(crate) struct Ladder<const N: usize> {
+    pub(super) coefficients: Coefficients<N>,
+    /// h/8
+    lowest: f64,
+    /// 8/h
+    per_part: f64,
+    /// By rung.
+    flows: Vec<Propagator<N>>,
+    /// Aᵏ⁻¹/k!
+    powers: Box<Powers<N>>,
+    /// Over the other eighths of h: 3/8, 5/8, 6/8 and 7/8.
+    eighths: [Option<Propagator<N>>; PARTS],
+    switching: Vec<Switching<N>>,
+}
+
+impl<const N: usize> Ladder<N> {
+    /// The ladder of an affine flow for steps of at most `longest` > 0; nothing if a coefficient
+    /// is not finite or so large that no step is.
+    pub(crate) fn new<const M: usize, F: Flow<f64, N, M>>(flow: &F, longest: f64) -> Option<Self> {
+        let coefficients = coefficients::<N, M, F>(flow)?;
+        let rate = spectral_radius(&coefficients.matrix);
+        let mut step = longest.min(REACH / rate);
+        let mut first = None;
+        for _ in 0..MOST_HALVINGS {
+            step = short_mantissa(step);
+            first = Propagator::series(&coefficients, step / PARTS as f64);
+            if first.as_ref().is_some_and(Propagator::is_finite) {
+                break;
+            }
+            step *= 0.5;
+        }
+        let mut flows = vec![first.filter(Propagator::is_finite)?];
+        for rung in 0..FIRST {
+            flows.push(flows[rung].after(&flows[rung]));
+        }
+        let mut ladder = Self {
+            powers: Box::new(powers(&coefficients.matrix)),
+            coefficients,
+            lowest: step / PARTS as f64,
+            per_part: PARTS as f64 / step,
+            flows,
+            eighths: [const { None }; PARTS],
+            switching: Vec::new(),
+        };
+        let sides = <F::Boundary as Boundary<f64, N>>::SIDES;
+        let switching = sides.iter().map(|&(interface, _)| {
+            let origin = Vector::zeros();
+            let gradient = flow.boundary().switching_gradient(interface, 0.0, &origin);
+            ladder.switching(gradient)
+        });
+        ladder.switching = switching.collect();
+        Some(ladder)
+    }
+
+    /// What is to be known of a switching function with these ∂ₜg and ∇g.
+    fn switching(&self, (by_time, gradient): (f64, Vector<f64, N>)) -> Switching<N> {
+        let Coefficients { matrix, offset } = &self.coefficients;
+        let sizes = gradient.map(f64::abs);
+        let products = (0..N).map(|i| sizes[i] * offset[i].abs());
+        let terms = std::array::from_fn(|k| {
+            let power = &self.powers[k];
+            Vector::from_fn(|j, _| (0..N).map(|i| gradient[i] * power[i][j]).sum())
+        });
+        Switching {
+            terms,
+            rate: Vector::from_fn(|j, _| (0..N).map(|i| sizes[i] * matrix[i][j].abs()).sum()),
+            offset: by_time.abs() + products.sum::<f64>(),
+            fresh: self.fresh(&gradient),
+            settled: Vec::new(),
+            gradient,
+        }
+    }
+
+    /// max |c A³ exp(sA)| over 0 ≤ s ≤ h: on each quarter by the sum of the terms of its series.
+    fn fresh(&self, gradient: &Vector<f64, N>) -> Vector<f64, N> {
+        const TERMS: u32 = 14;
+        let a = &self.coefficients.matrix;
+        let quarter = &self.flows[FIRST - 2];
+        let mut row = times(a, &times(a, &times(a, &(*gradient).into())));
+        let mut largest = Vector::<f64, N>::zeros();
+        for part in 0..4 {
+            if part > 0 {
+                row = quarter.transposed_roughly(&row);
+            }
+            let mut term = row;
+            let mut sum = [0.0; N];
+            for k in 1..=TERMS {
+                for (sum, term) in sum.iter_mut().zip(&term) {
+                    *sum += term.abs();
+                }
+                let factor = self.size(FIRST - 2) * inverse(k);
+                term = times(a, &term).map(|entry| entry * factor);
+            }
+            largest = largest.sup(&Vector::from(sum));
+        }
+        largest
+    }
+
+    /// c A³
+    fn third(&self, row: &[Pair; N]) -> [Pair; N] {
+        let a = &self.coefficients.matrix;
+        let image = |row: &[Pair; N]| -> [Pair; N] {
+            std::array::from_fn(|j| {
+                let terms = row.iter().zip(a);
+                terms.fold(Pair::default(), |sum, (entry, own)| {
+                    sum.plus(entry.scaled(own[j]))
+                })
+            })
+        };
+        image(&image(&image(row)))
+    }
+
+    /// About max |c A³ exp(sA)| from half a step to two steps of a rung: at points an eighth of
+    /// it apart, with the slope in between.
+    fn settled(&self, gradient: &Vector<f64, N>, rung: usize) -> Vector<f64, N> {
+        const POINTS: usize = 13;
+        const MARGIN: f64 = 1.25;
+        let between = self.size(rung) / (2 * PARTS) as f64;
+        // first what is fast is left out, then the powers of A are taken
+        let decayed = self.flows[rung - 1].transposed(&pairs(gradient));
+        let mut row = self.third(&decayed);
+        let mut largest = Vector::<f64, N>::zeros();
+        for _ in 0..POINTS {
+            let values = row.map(|entry| entry.high);
+            let slopes = times(&self.coefficients.matrix, &values);
+            for j in 0..N {
+                let size = values[j].abs() + between * slopes[j].abs();
+                largest[j] = largest[j].max(MARGIN * size);
+            }
+            row = self.flows[rung - 3].transposed(&row);
+        }
+        largest
+    }
+
+    /// The step on a rung.
+    #[inline(always)]
+    pub(crate) fn size(&self, rung: usize) -> f64 {
+        self.lowest * (1u64 << rung) as f64
+    }
+
+    /// The flow over a step.
+    #[inline(always)]
+    pub(crate) fn flow(&self, rung: usize) -> &Propagator<N> {
+        &self.flows[rung]
+    }
+
+    /// Makes the rung, if there is none yet and its flow is finite.
+    #[cold]
+    pub(crate) fn climbs_to(&mut self, rung: usize) -> bool {
+        const HIGHEST: usize = 63;
+        if rung < self.flows.len() {
+            return true;
+        }
+        let highest = &self.flows[self.flows.len() - 1];
+        let flow = highest.after(highest);
+        if rung >= HIGHEST || rung > self.flows.len() || !flow.is_finite() {
+            return false;
+        }
+        self.flows.push(flow);
+        let settled: Vec<_> = self
+            .switching
+            .iter()
+            .map(|one| self.settled(&one.gradient, rung))
+            .collect();
+        for (switching, settled) in self.switching.iter_mut().zip(settled) {
+            switching.settled.push(settled);
+        }
+        true
+    }
+
+    /// A bound of |g⁗| over at most h from where the field is `field`.
+    #[inline(always)]
+    pub(crate) fn fourth(&self, side: usize, field: &Vector<f64, N>) -> f64 {
+        size_of(&self.switching[side].fresh, field)
+    }
+
+    /// A bound of |g⁗| from half a step of a rung to two steps after the field was `field`.
+    #[inline(always)]
+    pub(crate) fn fourth_later(&self, side: usize, rung: usize, field: &Vector<f64, N>) -> f64 {
+        size_of(&self.switching[side].settled[rung - FIRST - 1], field)
+    }
+
+    /// Σ|terms of dg/dt|
+    #[inline(always)]
+    pub(crate) fn rate_size(&self, side: usize, x: &Vector<f64, N>) -> f64 {
+        let switching = &self.switching[side];
+        size_of(&switching.rate, x) + switching.offset
+    }
+
+    /// The flow over the multiple of h/8 nearest to 0 ≤ τ ≤ h, and what is left of τ.
+    pub(crate) fn node(&mut self, state: &State<N>, tau: f64) -> (State<N>, f64, f64) {
+        let number = ((tau * self.per_part + 0.5) as usize).min(PARTS);
+        let offset = number as f64 * self.lowest;
+        let state = match number {
+            0 => *state,
+            1 => self.flows[0].apply(state),
+            2 => self.flows[1].apply(state),
+            4 => self.flows[2].apply(state),
+            PARTS => self.flows[3].apply(state),
+            _ => {
+                let flows = &self.flows;
+                let flow = self.eighths[number].get_or_insert_with(|| match number {
+                    3 => flows[1].after(&flows[0]),
+                    5 => flows[2].after(&flows[0]),
+                    6 => flows[2].after(&flows[1]),
+                    _ => flows[2].after(&flows[1].after(&flows[0])),
+                });
+                flow.apply(state)
+            }
+        };
+        (state, offset, tau - offset)
+    }
+
+    /// The flow over short times.
+    #[inline(always)]
+    pub(crate) fn short(&self, at: State<N>) -> Short<N> {
+        Short::new(&self.coefficients, &self.powers, at)
+    }
+
+    /// The coefficients of c·x along the flow, from the first on, where the field is `field`.
+    #[inline(always)]
+    pub(crate) fn along(&self, side: usize, field: &Vector<f64, N>) -> [f64; TERMS] {
+        let terms = &self.switching[side].terms;
+        let mut along = [0.0; TERMS];
+        for (along, row) in along.iter_mut().zip(terms) {
+            *along = row.dot(field);
+        }
+        along
+    }
+
+    /// The state a time τ ≥ 0 later.
+    pub(crate) fn reach(&mut self, state: &State<N>, tau: f64) -> State<N> {
+        let mut state = *state;
+        let mut rest = tau;
+        for rung in (FIRST..self.flows.len()).rev() {
+            let size = self.size(rung);
+            while rest >= size {
+                state = self.flow(rung).apply(&state);
+                rest -= size;
+            }
+        }
+        let (node, _, rest) = self.node(&state, rest);
+        self.short(node).after(rest)
+    }
+}
+
+/// Σ rowⱼ |vⱼ|
+#[inline(always)]
+fn size_of<const N: usize>(row: &Vector<f64, N>, v: &Vector<f64, N>) -> f64 {
+    row.iter()
+        .zip(v)
+        .fold(0.0, |sum, (row, v)| sum + row * v.abs())
+}
+
+/// 1/k
+fn inverse(k: u32) -> f64 {
+    1.0 / f64::from(k)
+}
+
+fn pairs<const N: usize>(row: &Vector<f64, N>) -> [Pair; N] {
+    std::array::from_fn(|j| Pair::from(row[j]))
+}
+
+/// The row vector r A.
+fn times<const N: usize>(a: &Rows<f64, N>, row: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|j| row.iter().zip(a).map(|(r, own)| r * own[j]).sum())
+}
+
+/// A and b of an affine field: b = f(0), and column j of A is f far out on axis j, where b is
+/// below the rounding errors.
+fn coefficients<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+) -> Option<Coefficients<N>> {
+    // 2⁵⁰⁰
+    const FAR: f64 = f64::from_bits((1023 + 500) << 52);
+    let origin = flow.vector_field(0.0, &Vector::zeros());
+    let mut matrix = [[0.0; N]; N];
+    let mut finite = is_finite(&origin);
+    for j in 0..N {
+        let mut x = Vector::zeros();
+        x[j] = FAR;
+        let column = (flow.vector_field(0.0, &x) - origin) / FAR;
+        finite &= is_finite(&column);
+        for (row, entry) in matrix.iter_mut().zip(&column) {
+            row[j] = *entry;
+        }
+    }
+    let offset = origin.into();
+    finite.then_some(Coefficients { matrix, offset })
+}
+
+/// About the spectral radius of A, not below it: ‖A¹⁶‖^(1/16); zero of a nilpotent one.
+fn spectral_radius<const N: usize>(a: &Rows<f64, N>) -> f64 {
+    let mut power = *a;
+    let mut logarithm = 0.0;
+    for doubling in 0..=4 {
+        if doubling > 0 {
+            let factor = power;
+            power = std::array::from_fn(|i| times(&factor, &factor[i]));
+            logarithm *= 2.0;
+        }
+        let norms = power
+            .iter()
+            .map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>());
+        let norm = norms.fold(0.0, f64::max);
+        if norm == 0.0 {
+            return 0.0;
+        }
+        power = power.map(|row| row.map(|entry| entry / norm));
+        logarithm += norm.ln();
+    }
+    (logarithm / 16.0).exp()
+}
+
+/// `step` with so few digits that its multiples are exact.
+fn short_mantissa(step: f64) -> f64 {
+    f64::from_bits(step.to_bits() & !((1 << 32) - 1))
+}
+
+/// The ladders of a run, by region. A copy starts without them: they are made again when needed.
+#[derive(Default)]
+pub(crate) struct Ladders(Vec<Option<Box<dyn Any + Send + Sync>>>);
+
+impl Ladders {
+    /// Takes that of a region out.
+    pub(crate) fn take<const N: usize>(&mut self, region: usize) -> Option<Box<Ladder<N>>> {
+        self.0.get_mut(region)?.take()?.downcast().ok()
+    }
+
+    /// Keeps it.
+    pub(crate) fn keep<const N: usize>(&mut self, region: usize, ladder: Box<Ladder<N>>) {
+        if self.0.len() <= region {
+            self.0.resize_with(region + 1, || None);
+        }
+        self.0[region] = Some(ladder);
+    }
+}
+
+impl Clone for Ladders {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl fmt::Debug for Ladders {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known = self.0.iter().flatten().count();
+        f.debug_tuple("Ladders").field(&known).finish()
+    }
+}

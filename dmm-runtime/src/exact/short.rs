@@ -1,0 +1,97 @@
+//! The exact flow over a short time d: x + d f + Σ dᵏ Aᵏ⁻¹ f/k!, with the first term in pairs of
+//! doubles. The others are below d²/2, and their rounding errors far below those of x.
+
+use super::pair::Pair;
+use super::propagator::{Coefficients, Rows};
+use crate::series::polynomial::increment;
+use crate::state::State;
+use crate::system::Vector;
+
+/// Terms: half the lowest rung is at most 0.12/‖A‖, and the last one below 10⁻²⁰ there.
+pub(super) const TERMS: usize = 12;
+
+/// Aᵏ⁻¹/k!, k from 1.
+pub(super) type Powers<const N: usize> = [Rows<f64, N>; TERMS];
+
+/// The matrices of the terms.
+pub(super) fn powers<const N: usize>(a: &Rows<f64, N>) -> Powers<N> {
+    let mut powers = [[[0.0; N]; N]; TERMS];
+    for (i, row) in powers[0].iter_mut().enumerate() {
+        row[i] = 1.0;
+    }
+    for k in 1..TERMS {
+        let inverse = 1.0 / (k + 1) as f64;
+        let (before, rest) = powers.split_at_mut(k);
+        for (target, row) in rest[0].iter_mut().zip(a) {
+            for (&entry, factor) in row.iter().zip(&before[k - 1]) {
+                for (target, factor) in target.iter_mut().zip(factor) {
+                    *target += entry * inverse * factor;
+                }
+            }
+        }
+    }
+    powers
+}
+
+/// The series of the flow at a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Short<const N: usize> {
+    at: State<N>,
+    /// f
+    field: [Pair; N],
+    /// Aᵏ⁻¹ f/k! by component.
+    terms: [[f64; TERMS]; N],
+}
+
+impl<const N: usize> Short<N> {
+    #[inline(always)]
+    pub(super) fn new(coefficients: &Coefficients<N>, powers: &Powers<N>, at: State<N>) -> Self {
+        let mut short = Self {
+            at,
+            field: [Pair::default(); N],
+            terms: [[0.0; TERMS]; N],
+        };
+        for i in 0..N {
+            let mut sum = Pair::from(coefficients.offset[i]);
+            for (j, &entry) in coefficients.matrix[i].iter().enumerate() {
+                let x = Pair {
+                    high: at.x[j],
+                    low: at.remainder[j],
+                };
+                sum = sum.plus(x.scaled(entry));
+            }
+            short.field[i] = sum;
+        }
+        for (i, terms) in short.terms.iter_mut().enumerate() {
+            for (term, power) in terms.iter_mut().zip(powers) {
+                for (&entry, field) in power[i].iter().zip(&short.field) {
+                    *term += entry * field.high;
+                }
+            }
+        }
+        short
+    }
+
+    /// f
+    #[inline(always)]
+    pub(crate) fn field(&self) -> Vector<f64, N> {
+        Vector::from_fn(|i, _| self.field[i].high)
+    }
+
+    /// The state after d.
+    #[inline(always)]
+    pub(crate) fn after(&self, d: f64) -> State<N> {
+        let mut state = self.at;
+        for i in 0..N {
+            let first = self.field[i].scaled(d);
+            let rest = d * increment(&self.terms[i], d);
+            let x = Pair {
+                high: state.x[i],
+                low: state.remainder[i],
+            };
+            let sum = x.plus(first).plus(Pair::from(rest));
+            (state.x[i], state.remainder[i]) = (sum.high, sum.low);
+        }
+        state
+    }
+}
