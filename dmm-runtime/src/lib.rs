@@ -8,7 +8,8 @@
 //! | to | use |
 //! |---|---|
 //! | declare a system | [`pws!`] |
-//! | integrate it | [`Integrator`] with a [`Scheme`]: [`Taylor`], the fast one, [`Symmetric`] or [`Composed`] |
+//! | integrate it | [`Integrator`] with a [`Scheme`]: [`Best`], unless another one is meant |
+//! | choose a scheme by name | [`Taylor`], [`Symmetric`], [`Composed`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | keep some of its points only | [`Recording`] |
 //! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
@@ -18,17 +19,21 @@
 //!
 //! A transition is what other libraries call an event.
 //!
-//! # The scheme
+//! # The schemes
 //!
-//! One step solves x₁ = x₀ + τ f^τ(t₀, x₀, t₁, x₁) with a discrete vector field f^τ for which
-//! Λ^τ f^τ + ∂ₜ^τψ = 0, where the discrete multiplier telescopes, Λ^τ Δx + ∂ₜ^τψ Δt = Δψ: so ψ
-//! is the same at both ends (Wan, Bihlo & Nave, SIAM J. Numer. Anal. 55, 2017). A step that
-//! meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ and g = 0 (Hirani,
-//! Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
+//! [`Best`] takes the best that each region allows: its exact flow, where f and the switching
+//! functions are affine with constant coefficients, and [`Taylor`]'s method to a tolerance
+//! elsewhere. The other schemes are there by name.
 //!
-//! That is [`Symmetric`], of order 2; [`Composed`] makes steps of order 4, 6 and 8 of it. [`Taylor`] takes the discrete vector field in minimal-norm
-//! form instead, with a Taylor polynomial of high order for its mean field and steps as long as
-//! a tolerance allows.
+//! One step of [`Symmetric`], of order 2, solves x₁ = x₀ + τ f^τ(t₀, x₀, t₁, x₁) with a discrete
+//! vector field f^τ for which Λ^τ f^τ + ∂ₜ^τψ = 0, where the discrete multiplier telescopes,
+//! Λ^τ Δx + ∂ₜ^τψ Δt = Δψ: so ψ is the same at both ends (Wan, Bihlo & Nave, SIAM J. Numer. Anal.
+//! 55, 2017). A step that meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ
+//! and g = 0 (Hirani, Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
+//! [`Composed`] makes steps of order 4, 6 and 8 of it.
+//!
+//! [`Taylor`] takes the discrete vector field in minimal-norm form instead, with a Taylor
+//! polynomial of high order for its mean field and steps as long as a tolerance allows.
 //!
 //! # Conservation for ever
 //!

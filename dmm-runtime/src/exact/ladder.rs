@@ -14,6 +14,7 @@ use std::fmt;
 use super::pair::Pair;
 use super::propagator::{Coefficients, Propagator, Rows};
 use crate::linear::is_finite;
+use crate::scalar::Scalar;
 use crate::state::State;
 use crate::system::{Boundary, Flow, Vector};
 
@@ -24,6 +25,8 @@ use super::short::{Powers, Short, powers};
 const REACH: f64 = 1.8;
 /// The rung of h.
 pub(crate) const FIRST: usize = 3;
+/// There are no rungs from here on.
+const HIGHEST: usize = 64;
 /// The lowest rung is so many times smaller.
 const PARTS: usize = 1 << FIRST;
 /// Halvings of a first step whose series does not converge.
@@ -54,6 +57,8 @@ pub(crate) struct Ladder<const N: usize> {
     pub(super) coefficients: Coefficients<N>,
     /// h/8
     lowest: f64,
+    /// By rung.
+    sizes: [f64; HIGHEST],
     /// 8/h
     per_part: f64,
     /// By rung.
@@ -89,6 +94,7 @@ impl<const N: usize> Ladder<N> {
             powers: Box::new(powers(&coefficients.matrix)),
             coefficients,
             lowest: step / PARTS as f64,
+            sizes: std::array::from_fn(|rung| step / PARTS as f64 * (1u64 << rung) as f64),
             per_part: PARTS as f64 / step,
             flows,
             eighths: [const { None }; PARTS],
@@ -187,7 +193,7 @@ impl<const N: usize> Ladder<N> {
     /// The step on a rung.
     #[inline(always)]
     pub(crate) fn size(&self, rung: usize) -> f64 {
-        self.lowest * (1u64 << rung) as f64
+        self.sizes[rung]
     }
 
     /// The flow over a step.
@@ -199,7 +205,6 @@ impl<const N: usize> Ladder<N> {
     /// Makes the rung, if there is none yet and its flow is finite.
     #[cold]
     pub(crate) fn climbs_to(&mut self, rung: usize) -> bool {
-        const HIGHEST: usize = 63;
         if rung < self.flows.len() {
             return true;
         }
@@ -275,7 +280,7 @@ impl<const N: usize> Ladder<N> {
         let terms = &self.switching[side].terms;
         let mut along = [0.0; TERMS];
         for (along, row) in along.iter_mut().zip(terms) {
-            *along = row.dot(field);
+            *along = product(row, field);
         }
         along
     }
@@ -296,12 +301,18 @@ impl<const N: usize> Ladder<N> {
     }
 }
 
+/// Σ rowⱼ vⱼ
+#[inline(always)]
+fn product<const N: usize>(row: &Vector<f64, N>, v: &Vector<f64, N>) -> f64 {
+    row.iter()
+        .zip(v)
+        .fold(0.0, |sum, (row, v)| row.fused(*v, sum))
+}
+
 /// Σ rowⱼ |vⱼ|
 #[inline(always)]
 fn size_of<const N: usize>(row: &Vector<f64, N>, v: &Vector<f64, N>) -> f64 {
-    row.iter()
-        .zip(v)
-        .fold(0.0, |sum, (row, v)| sum + row * v.abs())
+    product(row, &v.map(f64::abs))
 }
 
 /// 1/k
@@ -374,17 +385,26 @@ fn short_mantissa(step: f64) -> f64 {
 pub(crate) struct Ladders(Vec<Option<Box<dyn Any + Send + Sync>>>);
 
 impl Ladders {
-    /// Takes that of a region out.
-    pub(crate) fn take<const N: usize>(&mut self, region: usize) -> Option<Box<Ladder<N>>> {
-        self.0.get_mut(region)?.take()?.downcast().ok()
+    /// That of a region, made if there is none; nothing if it cannot be.
+    #[inline(always)]
+    pub(crate) fn of<const N: usize>(
+        &mut self,
+        region: usize,
+        make: impl FnOnce() -> Option<Ladder<N>>,
+    ) -> Option<&mut Ladder<N>> {
+        let known = matches!(self.0.get(region), Some(Some(ladder)) if ladder.is::<Ladder<N>>());
+        if !known {
+            self.keep(region, make()?);
+        }
+        self.0[region].as_mut()?.downcast_mut()
     }
 
-    /// Keeps it.
-    pub(crate) fn keep<const N: usize>(&mut self, region: usize, ladder: Box<Ladder<N>>) {
+    #[cold]
+    fn keep<const N: usize>(&mut self, region: usize, ladder: Ladder<N>) {
         if self.0.len() <= region {
             self.0.resize_with(region + 1, || None);
         }
-        self.0[region] = Some(ladder);
+        self.0[region] = Some(Box::new(ladder));
     }
 }
 

@@ -1,5 +1,6 @@
 //! Pairs of doubles without quotients of pairs: what propagators are computed in.
 
+use crate::scalar::Scalar;
 use crate::time::{two_product, two_sum};
 
 /// An unevaluated sum of two doubles, |low| ≤ ulp(high)/2, of about 104 bits (Dekker, Numer. Math.
@@ -54,7 +55,7 @@ impl Pair {
     #[inline(always)]
     pub(crate) fn scaled(self, factor: f64) -> Self {
         let (high, error) = two_product(self.high, factor);
-        Self::fast_sum(high, error + self.low * factor)
+        Self::fast_sum(high, self.low.fused(factor, error))
     }
 }
 

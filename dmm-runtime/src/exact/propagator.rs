@@ -8,6 +8,7 @@
 //! digits that squaring loses are those that a pair of doubles has beyond a double.)
 
 use super::pair::Pair;
+use crate::scalar::Scalar;
 use crate::state::State;
 use crate::system::Vector;
 use crate::time::{two_product, two_sum};
@@ -178,7 +179,8 @@ impl<const N: usize> Propagator<N> {
                     _ => two_sum(high, product),
                 };
                 high = sum;
-                low += lost + error + (entry.high * state.remainder[j] + entry.low * state.x[j]);
+                let cross = entry.low.fused(state.x[j], low + (lost + error));
+                low = entry.high.fused(state.remainder[j], cross);
             }
             if self.shifts {
                 let (sum, lost) = two_sum(high, self.offset[i].high);

@@ -3,6 +3,7 @@
 
 use super::pair::Pair;
 use super::propagator::{Coefficients, Rows};
+use crate::scalar::Scalar;
 use crate::series::polynomial::increment;
 use crate::state::State;
 use crate::system::Vector;
@@ -65,7 +66,7 @@ impl<const N: usize> Short<N> {
         for (i, terms) in short.terms.iter_mut().enumerate() {
             for (term, power) in terms.iter_mut().zip(powers) {
                 for (&entry, field) in power[i].iter().zip(&short.field) {
-                    *term += entry * field.high;
+                    *term = entry.fused(field.high, *term);
                 }
             }
         }

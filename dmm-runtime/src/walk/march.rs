@@ -127,13 +127,12 @@ where
         }
         let regions = Sys::REGIONS.iter();
         let region = regions.take_while(|one| **one != self.region).count();
-        let known = self.progress.ladders.take(region);
-        let made = || Ladder::new(flow, remaining).map(Box::new);
-        let mut ladder = known
-            .or_else(made)
-            .ok_or_else(|| self.failure(StepFailure::NotFinite, remaining))?;
-        let end = self.march_on(flow, &mut ladder, end);
-        self.progress.ladders.keep(region, ladder);
+        let mut ladders = std::mem::take(&mut self.progress.ladders);
+        let end = match ladders.of(region, || Ladder::new(flow, remaining)) {
+            Some(ladder) => self.march_on(flow, ladder, end),
+            None => Err(self.failure(StepFailure::NotFinite, remaining)),
+        };
+        self.progress.ladders = ladders;
         end
     }
 

@@ -1,4 +1,4 @@
-use dmm_runtime::{Integrator, Symmetric, pws};
+use dmm_runtime::{Best, Integrator, pws};
 
 pws! {
     /// An oscillator whose spring is three times stiffer below y = 0.
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         k_below: 3.0,
         ..Default::default()
     };
-    let solution = Integrator::new(&oscillator, Symmetric::step_size(1e-3))
+    let solution = Integrator::new(&oscillator, Best::tolerance(1e-12))
         .initial(0.0, [1.0, 1.0])
         .run_until(1000.0)?;
     for transition in &solution.transitions()[..3] {
