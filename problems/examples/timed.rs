@@ -3,14 +3,15 @@
 //!
 //! | request | answer, one line of JSON |
 //! |---|---|
-//! | `schemes` | names of the schemes that conserve, and whether they take a tolerance |
+//! | `schemes` | the schemes that conserve: `name`, and whether `adaptive` (by a tolerance) |
 //! | `describe PROBLEM` | states, parameters, initial value, formulas of f and g, reference |
-//! | `run PROBLEM SCHEME CONTROL T_END REPEATS` | final state, steps, transitions, seconds of each repeat |
-//! | `ensemble PROBLEM SCHEME CONTROL T_END FILE REPEATS` | final states and seconds of all runs of a file |
+//! | `run PROBLEM SCHEME CONTROL T_END REPEATS` | final state, steps, transitions, seconds each |
+//! | `ensemble PROBLEM SCHEME CONTROL T_END FILE REPEATS` | final states, seconds of all runs |
 //!
-//! `FILE` is a CSV file with a run a row; its columns are states and parameters. `CONTROL` is `step=1e-3` or `tolerance=1e-9`. What cannot be answered is
-//! `{"error": "…"}`. A run starts from the problem's initial value, and what is timed is all of
-//! it: nothing is kept from one to the next.
+//! `CONTROL` is `step=1e-3` or `tolerance=1e-9`; `FILE` is a CSV file with a run a row, whose
+//! columns are states and parameters. What cannot be answered is `{"error": "…"}`. A run starts
+//! from the problem's initial value, and what is timed is all of it: nothing is kept from one to
+//! the next.
 
 use std::error::Error;
 use std::io::{BufRead, Write};
@@ -205,4 +206,66 @@ fn samples(problem: &dyn Problem) -> Result<Vec<Value>, Box<dyn Error>> {
         })
     };
     Ok(samples.iter().map(sample).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_is_described_by_its_formulas() {
+        let described = answer(&["describe", "elliptic"]).unwrap();
+        assert_eq!(described["states"], json!(["x", "y"]));
+        assert_eq!(described["interfaces"], json!(["x^2 + y^2 - 1"]));
+        assert_eq!(described["parameters"][1], json!(["a_outside", -2.0]));
+        let outside = &described["regions"][1];
+        assert_eq!(outside["field"], json!(["2*y", "3*x^2 + a_outside"]));
+        assert_eq!(outside["sides"], json!([1]));
+        assert!(described["samples"].as_array().unwrap().len() > 5);
+    }
+
+    #[test]
+    fn a_run_is_timed_as_often_as_is_asked() {
+        let words = ["run", "harmonic", "taylor", "tolerance=1e-12", "10", "3"];
+        let run = answer(&words).unwrap();
+        assert_eq!(run["transitions"], json!(4));
+        assert_eq!(run["seconds"].as_array().unwrap().len(), 3);
+        let x = run["x"][0].as_f64().unwrap();
+        assert!((x - 1.085_120_554_086_237_1).abs() < 1e-11, "{x}");
+    }
+
+    #[test]
+    fn an_ensemble_is_read_from_a_file() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(&file, "x,k_below\n1,3\n1.5,2\n").unwrap();
+        let path = file.path().to_str().unwrap();
+        let words = [
+            "ensemble",
+            "harmonic",
+            "taylor",
+            "tolerance=1e-12",
+            "10",
+            path,
+            "1",
+        ];
+        let runs = answer(&words).unwrap();
+        let alone = answer(&["run", "harmonic", "taylor", "tolerance=1e-12", "10", "1"]).unwrap();
+        assert_eq!(runs["x"][0], alone["x"]);
+        assert!(runs["x"][1] != alone["x"]);
+        std::fs::write(&file, "z\n1\n").unwrap();
+        assert!(answer(&words).is_err());
+    }
+
+    #[test]
+    fn what_cannot_be_answered_is_said() {
+        for words in [
+            &["run", "harmonic", "taylor", "step=1e-3", "10", "1"][..],
+            &["run", "harmonic", "euler", "step=1e-3", "10", "1"],
+            &["run", "harmonic", "taylor", "tolerance=2", "10", "1"],
+            &["describe", "nosuch"],
+            &["sing"],
+        ] {
+            assert!(answer(words).is_err(), "{words:?}");
+        }
+    }
 }

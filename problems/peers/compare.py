@@ -14,7 +14,7 @@ import math
 import pathlib
 import statistics
 
-from heyoka_peer import Heyoka, cost_of_python
+from heyoka_peer import Heyoka, cost_of_python, exact_state
 from picture import work_precision
 from program import Program
 
@@ -27,6 +27,9 @@ PROBLEMS = [
     "rigid_body",
     "damped",
     "spiral",
+    "henon_heiles",
+    "toda",
+    "relativistic_oscillator",
 ]
 LEVELS = [1e-3, 1e-6, 1e-9, 1e-12]
 TOLERANCES = [10 ** (-k / 2) for k in range(4, 32)]
@@ -60,7 +63,10 @@ class Setting:
 
 
 def end_times(description):
+    """Times at which the exact state is known, as samples."""
     samples = description["samples"]
+    if not samples:
+        return [{"t": SHORT, "x": exact_state(description, SHORT), "crossings": 0}]
     last_short = [sample for sample in samples if sample["t"] <= SHORT][-1]
     return [last_short] + [sample for sample in samples[-1:] if sample["t"] > SHORT]
 
@@ -77,7 +83,8 @@ def settings_of(program, problem, sample):
 
 def settings_of_heyoka(description, sample):
     costs = cost_of_python(description, 1e-9, min(sample["t"], SHORT))
-    print("  heyoka: Python takes {:.1f} µs a run, {:.2f} µs a crossing".format(*(1e6 * c for c in costs)))
+    a_run, a_crossing = (1e6 * cost for cost in costs)
+    print(f"  heyoka: Python takes {a_run:.1f} µs a run, {a_crossing:.2f} µs a crossing")
     for tolerance in TOLERANCES:
         run = Heyoka(description, tolerance).run
         yield Setting("heyoka", tolerance, run, sample, *costs)
@@ -109,12 +116,13 @@ class Report:
 
     COLUMNS = ["problem", "t_end", "level"]
     SIDE = ["who", "tolerance", "error", "steps", "seconds_min", "seconds_median", "seconds_max"]
+    SETTING = ["tolerance", "error", "steps", "seconds", "net"]
     RATIO = ["ratio_min", "ratio_median", "ratio_max"]
 
     def __init__(self, directory):
         directory.mkdir(parents=True, exist_ok=True)
         self.settings = csv.writer(open(directory / "settings.csv", "w"))
-        self.settings.writerow(["problem", "t_end", "who", "tolerance", "error", "steps", "seconds", "net"])
+        self.settings.writerow(["problem", "t_end", "who", *self.SETTING])
         self.ratios = csv.writer(open(directory / "ratios.csv", "w"))
         sides = [f"{side}_{column}" for side in ("ours", "peer") for column in self.SIDE]
         net = [f"net_{column}" for column in self.RATIO]

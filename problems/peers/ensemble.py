@@ -47,9 +47,7 @@ class Batch:
 
     def __init__(self, description, ensemble, tolerance, lanes):
         formulas = Formulas(description)
-        above, below = sorted(description["regions"], key=lambda region: -region["sides"][0])
-        field = [formulas.both(*pair) for pair in zip(above["field"], below["field"])]
-        system = list(zip(formulas.states, field))
+        system = list(zip(formulas.states, formulas.field(description["regions"])))
         g = formulas.one(description["interfaces"][0])
         # the one constant that differs, by its value on each side
         (pair,) = formulas.switched
@@ -149,7 +147,8 @@ def main():
                 if error <= level:
                     reached.setdefault((level, name), (tolerance, error, run))
         for level in LEVELS:
-            compare(level, {name: rest for (its, name), rest in reached.items() if its == level}, arguments.count)
+            rows = {name: row for (its, name), row in reached.items() if its == level}
+            compare(level, rows, arguments.count)
 
 
 def compare(level, rows, count):
@@ -158,7 +157,7 @@ def compare(level, rows, count):
     for _ in range(ROUNDS):
         for name, (_, _, run) in rows.items():
             seconds[name].append(run()[0])
-    print(f"{PROBLEM}, T = {T_END:g}, median error at most {level:.0e}: trajectories a second, median (min-max)")
+    print(f"{PROBLEM}, T = {T_END:g}, median error at most {level:.0e}: trajectories a second")
     for name, (tolerance, error, _) in rows.items():
         rates = [count / one for one in seconds[name]]
         print(

@@ -50,6 +50,12 @@ class Formulas:
         """A formula that both sides share."""
         return self.both(text, text)
 
+    def field(self, regions):
+        """The vector field, of one region or of both."""
+        above = max(regions, key=lambda region: region["sides"])
+        below = min(regions, key=lambda region: region["sides"])
+        return [self.both(*pair) for pair in zip(above["field"], below["field"])]
+
     def both(self, above, below):
         """A formula on the two sides."""
         return self.merge(parse(above), parse(below))
