@@ -1,55 +1,59 @@
 //! Conservation for ever: the level ψ_ref of a segment, and the correction towards it.
 //!
-//! A step conserves ψ up to its rounding errors, which add up over a long run. The level is
-//! therefore kept from the entry into a region, and every few steps the residual
-//! r = ψ(t, x) − ψ_ref, a few units in the last place, is taken off the state along the rows
-//! of Λ, at once: the smallest δx with Λ δx = −r.
+//! A step conserves ψ up to its truncation and rounding errors, which add up over a long run.
+//! The level is therefore kept from the entry into a region, where it is taken as a pair of
+//! doubles of the state with its remainder, and the residual r = ψ(t, x) − ψ_ref is taken off
+//! the state along the rows of Λ: the smallest δx with Λ δx = −r.
 //!
-//! Where ψ has almost no slope its rounding error must not be amplified into a large
-//! displacement: for one quantity δx = −Λᵀ r/(ΛΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of
-//! several quantities each is damped in the direction that it adds to those before it, and the
-//! rows that count are those that [`MinimalNorm`] keeps in the discrete vector field.
+//! Where ψ has little slope the rounding error of ψ, and not r, would be what moves the state.
+//! There r is evaluated in pairs of doubles. Where ψ has no slope to speak of even r must not be
+//! amplified: there, for one quantity δx = −Λᵀ r/(ΛΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of several
+//! quantities each is damped in the direction that it adds to those before it, and the rows
+//! that count are those that [`MinimalNorm`] keeps in the discrete vector field.
 
+use crate::linear::dot;
 use crate::minimal_norm::MinimalNorm;
-use crate::scalar::Scalar;
+use crate::special::double::Double;
 use crate::state::State;
-use crate::system::{Flow, Vector};
+use crate::system::{Boundary, Flow, Matrix, Vector};
 use crate::time::Time;
 
 /// The level of the conserved quantities in a segment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Level<const N: usize, const M: usize> {
     reference: Vector<f64, M>,
-    /// D
-    damping: Vector<f64, M>,
-    /// Residuals beyond these are no rounding errors, and not damped.
-    noise: Vector<f64, M>,
+    /// What the reference lacks as doubles.
+    remainder: Vector<f64, M>,
+    /// (|terms of ψ|/|x|)²: the squares of slopes count relative to these.
+    scale: Vector<f64, M>,
 }
 
 impl<const N: usize, const M: usize> Level<N, M> {
-    /// σ: rounding errors of ψ move the state by a few units in its last place.
-    const SLOPE: f64 = 1.0 / 16.0;
-    /// Rounding errors of ψ are below so many units of its terms.
-    const NOISE: f64 = 16.0 * f64::EPSILON;
+    /// Where the slope is smaller than this, rounding errors of ψ would move the state by more
+    /// than some units in its last place.
+    const LITTLE: f64 = 1.0 / 16.0;
+    /// σ: where the slope is smaller than this, the second order of r is more than a rounding
+    /// error of ψ.
+    const NONE: f64 = 1e-6;
 
     /// The level at the entry into a region.
     pub(crate) fn enter<F: Flow<f64, N, M>>(flow: &F, time: Time, state: &State<N>) -> Self {
-        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let psi = in_pairs(flow, time, state);
         let mut level = Self {
-            reference: psi + multiplier * remainder(flow, time, state),
-            damping: Vector::zeros(),
-            noise: Vector::zeros(),
+            reference: psi.map(|psi| psi.high),
+            remainder: psi.map(|psi| psi.low),
+            scale: Vector::zeros(),
         };
         level.rescale(flow, time.value, state);
         level
     }
 
-    /// Takes D from the present state, which may have grown or shrunk since the entry.
+    /// Takes the scale of slopes from the present state, which may have grown or shrunk since
+    /// the entry.
     pub(crate) fn rescale<F: Flow<f64, N, M>>(&mut self, flow: &F, t: f64, state: &State<N>) {
-        let scale = Self::SLOPE / state.x.norm().max(f64::MIN_POSITIVE);
+        let square = dot(&state.x, &state.x).max(f64::MIN_POSITIVE);
         let size = flow.conserved_size(t, &state.x);
-        self.damping = size.map(|size| (size * scale).powi(2) + f64::MIN_POSITIVE);
-        self.noise = size * Self::NOISE;
+        self.scale = size.map(|size| size * (size / square) + f64::MIN_POSITIVE);
     }
 
     /// The displacement δx towards the level.
@@ -64,21 +68,70 @@ impl<const N: usize, const M: usize> Level<N, M> {
             return Vector::zeros();
         }
         let (psi, multiplier) = flow.multiplier(time.value, &state.x);
-        let residual = (psi - self.reference) + multiplier * remainder(flow, time, state);
-        let damping = self
-            .damping
-            .zip_zip_map(&residual, &self.noise, |damping, r, noise| {
-                if r.abs() > noise {
-                    f64::MIN_POSITIVE
-                } else {
-                    damping
-                }
-            });
+        let little = self.scale * (Self::LITTLE * Self::LITTLE);
         if M == 1 {
-            let row = multiplier.row(0);
-            return row.transpose() * (-residual[0] / (row.norm_squared() + damping[0]));
+            let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
+            let square = dot(&row, &row);
+            let inverse = 1.0 / square;
+            let drift = dot(&row, &remainder(flow, time, state)) - self.remainder[0];
+            if square > little[0] {
+                return row * -(((psi[0] - self.reference[0]) + drift) * inverse);
+            }
+            return self.gentle(flow, time, state, &multiplier);
         }
-        -MinimalNorm::new(&multiplier, &multiplier).damped(&residual, &damping)
+        let projection = MinimalNorm::new(&multiplier, &multiplier);
+        if projection.is_steep(&little) {
+            let drift = multiplier * remainder(flow, time, state) - self.remainder;
+            return -projection.smallest(&((psi - self.reference) + drift));
+        }
+        self.gentle(flow, time, state, &multiplier)
+    }
+
+    /// The displacement where ψ has little slope, with the residual in pairs of doubles.
+    #[cold]
+    #[inline(never)]
+    fn gentle<F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        time: Time,
+        state: &State<N>,
+        multiplier: &Matrix<f64, M, N>,
+    ) -> Vector<f64, N> {
+        let residual = self.residual(flow, time, state);
+        self.towards(multiplier, &residual)
+    }
+
+    /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.
+    #[inline(always)]
+    pub(crate) fn residual<F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        time: Time,
+        state: &State<N>,
+    ) -> Vector<f64, M> {
+        let psi = in_pairs(flow, time, state);
+        Vector::from_fn(|i, _| (psi[i] - Double::new(self.reference[i], self.remainder[i])).high)
+    }
+
+    /// The displacement that takes a residual off.
+    #[inline(always)]
+    pub(crate) fn towards(
+        &self,
+        multiplier: &Matrix<f64, M, N>,
+        residual: &Vector<f64, M>,
+    ) -> Vector<f64, N> {
+        let damping = self.scale * (Self::NONE * Self::NONE);
+        if M == 1 {
+            let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
+            let square = dot(&row, &row);
+            let damping = if square > damping[0] { 0.0 } else { damping[0] };
+            return row * -(residual[0] / (square + damping));
+        }
+        let projection = MinimalNorm::new(multiplier, multiplier);
+        match projection.is_steep(&damping) {
+            true => -projection.smallest(residual),
+            false => -projection.damped(residual, &damping),
+        }
     }
 
     /// Whether ψ is further from its level than the rounding errors of evaluating it: a state that
@@ -107,18 +160,61 @@ impl<const N: usize, const M: usize> Level<N, M> {
         if M == 0 || !corrects {
             return state.normalised();
         }
+        if M == 1
+            && let Some(reached) = self.reached_at_once(flow, time, &state)
+        {
+            return reached;
+        }
         let displacement = self.correction(flow, time, &state);
         state.remainder += displacement;
         state = state.normalised();
         match is_coarse(&displacement, &state) {
-            true => self.corrected_again(flow, time, state),
+            true => self.reached_again(flow, time, state),
             false => state,
         }
     }
 
+    /// The same for one quantity that has some slope. What a large correction leaves, the square
+    /// of it, is taken off with the same slope.
+    #[inline(always)]
+    fn reached_at_once<F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        time: Time,
+        state: &State<N>,
+    ) -> Option<State<N>> {
+        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
+        let square = dot(&row, &row);
+        if square <= self.scale[0] * (Self::LITTLE * Self::LITTLE) {
+            return None;
+        }
+        let gain = row * (1.0 / square);
+        let residual = |psi: Vector<f64, M>, state: &State<N>| {
+            let drift = dot(&row, &remainder(flow, time, state)) - self.remainder[0];
+            (psi[0] - self.reference[0]) + drift
+        };
+        let without = |mut state: State<N>, residual: f64| {
+            state.remainder -= gain * residual;
+            state.normalised()
+        };
+        let first = residual(psi, state);
+        let mut reached = without(*state, first);
+        let coarse = square * (dot(&state.x, &state.x) * (COARSE * COARSE));
+        if first * first > coarse {
+            let second = residual(flow.conserved(time.value, &reached.x), &reached);
+            reached = without(reached, second);
+            // the same slope again leaves the product of the two
+            if (first * second).abs() > coarse {
+                reached = self.reached_again(flow, time, reached);
+            }
+        }
+        Some(reached)
+    }
+
     /// After a correction so large that its square is no rounding error.
     #[inline(never)]
-    fn corrected_again<F: Flow<f64, N, M>>(
+    fn reached_again<F: Flow<f64, N, M>>(
         &self,
         flow: &F,
         time: Time,
@@ -138,17 +234,52 @@ impl<const N: usize, const M: usize> Level<N, M> {
     }
 }
 
+/// The error of second order of a displacement by this part of the state is more than a rounding
+/// error.
+const COARSE: f64 = 1e-9;
+
 /// Whether the error of second order of a displacement is more than a rounding error.
 #[inline(always)]
-pub(crate) fn is_coarse<const N: usize>(displacement: &Vector<f64, N>, state: &State<N>) -> bool {
-    const SMALL: f64 = 1e-9;
-    let square = |v: &Vector<f64, N>| (0..N).fold(0.0, |sum, i| v[i].fused(v[i], sum));
-    square(displacement) > SMALL * SMALL * square(&state.x)
+fn is_coarse<const N: usize>(displacement: &Vector<f64, N>, state: &State<N>) -> bool {
+    dot(displacement, displacement) > COARSE * COARSE * dot(&state.x, &state.x)
+}
+
+/// ψ at the state and time with their remainders.
+#[inline(always)]
+fn in_pairs<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    time: Time,
+    state: &State<N>,
+) -> Vector<Double, M> {
+    let (t, x) = pairs(time, state);
+    flow.over::<Double>().conserved(t, &x)
+}
+
+/// g at the state and time with their remainders, rounded.
+#[inline(always)]
+pub(crate) fn switching_in_pairs<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    interface: usize,
+    time: Time,
+    state: &State<N>,
+) -> f64 {
+    let (t, x) = pairs(time, state);
+    let boundary = flow.boundary().over::<Double>();
+    boundary.switching_function(interface, t, &x).high
+}
+
+/// A time and a state as pairs of doubles.
+#[inline(always)]
+fn pairs<const N: usize>(time: Time, state: &State<N>) -> (Double, Vector<Double, N>) {
+    (
+        Double::new(time.value, time.remainder),
+        Vector::from_fn(|i, _| Double::new(state.x[i], state.remainder[i])),
+    )
 }
 
 /// The state's remainder, as far as ψ is concerned with that of the time: ψ(t + δ, x) is
 /// ψ(t, x − fδ), because ∂ₜψ = −∇ψ·f.
-#[inline]
+#[inline(always)]
 fn remainder<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     flow: &F,
     time: Time,

@@ -5,10 +5,17 @@
 //! Zeros of the pivot's row are skipped: the matrix I − τ ∂f^τ/∂x₁ of a chain has a handful of
 //! entries a row, and its elimination costs O(N²) rather than O(N³) operations.
 
+use crate::scalar::Scalar;
 use crate::system::{Matrix, Vector};
 
 /// Up to here the inverse has a closed form.
 const LARGEST_CLOSED: usize = 4;
+
+/// a·b
+#[inline(always)]
+pub(crate) fn dot<const N: usize>(a: &Vector<f64, N>, b: &Vector<f64, N>) -> f64 {
+    (1..N).fold(a[0] * b[0], |sum, i| a[i].fused(b[i], sum))
+}
 
 /// The solution of A·s = b; nothing if A is singular or not finite.
 #[inline]

@@ -96,9 +96,19 @@ impl<S: Scalar, const N: usize, const M: usize> MinimalNorm<S, N, M> {
         c
     }
 
+    /// Whether the square of what each row that counts adds to the rows before it is more than
+    /// `least`.
+    #[inline]
+    pub(crate) fn is_steep(&self, least: &Vector<S, M>) -> bool {
+        (0..self.rank).all(|k| {
+            let length = self.factor[(self.rows[k], k)];
+            length * length > least[self.rows[k]]
+        })
+    }
+
     /// v = Λ⁺ r, the solution of Λ^τ v = r of smallest norm.
     #[inline]
-    fn smallest(&self, r: &Vector<S, M>) -> Vector<S, N> {
+    pub(crate) fn smallest(&self, r: &Vector<S, M>) -> Vector<S, N> {
         self.damped(r, &Vector::from_element(S::from_f64(0.0)))
     }
 

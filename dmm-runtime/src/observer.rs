@@ -30,6 +30,9 @@ pub struct Transition<R, const N: usize> {
     pub time: Time,
     /// x̂*
     pub x: Vector<f64, N>,
+    /// What is missing from x̂*: with it g and ψ hold far beyond the digits of a double where the
+    /// scheme is [`Taylor`](crate::Taylor).
+    pub remainder: Vector<f64, N>,
     /// Index of the interface in [`System::INTERFACES`](crate::System::INTERFACES).
     pub interface: usize,
     /// The region that is left.

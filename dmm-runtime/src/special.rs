@@ -31,12 +31,13 @@ mod arc;
 mod arcsine;
 mod arctangent;
 mod cardinal;
-mod double;
+pub(crate) mod double;
 mod exponential;
 mod extended;
 mod logarithm;
 mod long;
 mod odd;
+mod pairs;
 mod series;
 
 pub use arcsine::{asin_dd, asin_dd_prime};

@@ -146,6 +146,13 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
     /// The interfaces that bound the region.
     type Boundary: Boundary<S, N>;
 
+    /// The same flow over other scalars.
+    type Over<Other: Scalar>: Flow<Other, N, M>;
+
+    /// The flow over other scalars with the same parameters, and with the same values of what
+    /// is computed from them alone.
+    fn over<Other: Scalar>(&self) -> Self::Over<Other>;
+
     /// Whether neither f nor ψ depends on the time.
     const AUTONOMOUS: bool;
     /// How the implicit equation of a step is solved.
@@ -228,6 +235,12 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
     /// The array of `value(0)`, `value(1)`, …
     fn each<T: Copy>(value: impl FnMut(usize) -> T) -> Self::Each<T>;
 
+    /// The same interfaces over other scalars.
+    type Over<Other: Scalar>: Boundary<Other, N>;
+
+    /// The interfaces over other scalars; see [`Flow::over`].
+    fn over<Other: Scalar>(&self) -> Self::Over<Other>;
+
     /// g(t, x)
     fn switching_function(&self, interface: usize, t: S, x: &Vector<S, N>) -> S;
 
@@ -267,6 +280,11 @@ impl<S: Scalar, const N: usize> Boundary<S, N> for Unbounded {
     const AFFINE: bool = true;
 
     type Each<T: Copy> = [T; 0];
+    type Over<Other: Scalar> = Self;
+
+    fn over<Other: Scalar>(&self) -> Self {
+        Self
+    }
 
     fn each<T: Copy>(value: impl FnMut(usize) -> T) -> [T; 0] {
         std::array::from_fn(value)

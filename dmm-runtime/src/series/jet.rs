@@ -84,7 +84,7 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
     }
 
     /// The solution's coefficients at (t, x).
-    #[inline(never)]
+    #[inline]
     pub(crate) fn expand(&mut self, flow: &F, t: f64, x: &Vector<f64, N>) {
         let series = &mut self.solution;
         for (component, &x) in series.as_mut().iter_mut().zip(x) {
@@ -129,14 +129,15 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
         &self.switching.as_ref()[interface]
     }
 
-    /// The step over `fraction` of the radius of convergence, which the root test on the last
-    /// two coefficients estimates.
+    /// The step over `fraction` of the radius of convergence, which the root test on two
+    /// coefficients estimates: not on the last ones, so that the step is known while these are
+    /// computed, and the powers of it with them.
     ///
     /// Each component counts relative to |x₀| + |x₁| h with the step h `before`, so that neither
     /// its zeros nor its unit matter; where there was none, relative to the largest component.
     #[inline(always)]
     pub(crate) fn step(&self, fraction: f64, before: f64) -> f64 {
-        let order = self.order();
+        let order = self.decisive();
         if before == 0.0 {
             return fraction * self.first_radius();
         }
@@ -148,6 +149,13 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
             second = second.max(c[order - 1].abs() * scale);
         }
         fraction * radius(order, last, second)
+    }
+
+    /// The order of the later coefficient that decides on the step.
+    #[inline(always)]
+    fn decisive(&self) -> usize {
+        let order = self.order();
+        order - if order > 12 { 4 } else { 2 }
     }
 
     #[inline(always)]
@@ -171,7 +179,7 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
             true => largest(0),
             false => largest(1).max(f64::MIN_POSITIVE),
         };
-        let order = self.order();
+        let order = self.decisive();
         radius(order, largest(order) / size, largest(order - 1) / size)
     }
 
@@ -196,5 +204,6 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
 #[inline(always)]
 fn radius(order: usize, last: f64, second: f64) -> f64 {
     let last = inverse_root(last, inverse_exponent(order));
-    last.min(inverse_root(second, inverse_exponent(order - 1)))
+    let second = inverse_root(second, inverse_exponent(order - 1));
+    if second < last { second } else { last }
 }

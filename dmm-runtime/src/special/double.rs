@@ -12,15 +12,17 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::arc::coefficients;
 use super::extended::Extended;
 use super::series::power_series;
+use crate::scalar::Scalar;
+use crate::time::two_product;
 
 /// What π/2 as a double lacks: the next 53 bits.
 pub(super) const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 
 /// An unevaluated sum of two doubles.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Double {
-    pub(super) high: f64,
-    pub(super) low: f64,
+#[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
+pub(crate) struct Double {
+    pub(crate) high: f64,
+    pub(crate) low: f64,
 }
 
 /// (−1)ᵏ/(2k + 3), of the series of C; at |x| = 1/16 the first term left out is 2⁻¹⁰⁸ of the sum.
@@ -29,6 +31,7 @@ const LEADING: [f64; 13] = coefficients(0);
 const TRAILING: [f64; 13] = coefficients(13);
 
 /// a + b exactly, where |a| ≥ |b|.
+#[inline]
 fn fast_two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     Double {
@@ -39,7 +42,7 @@ fn fast_two_sum(a: f64, b: f64) -> Double {
 
 impl Double {
     /// A number of more digits than a double has.
-    pub(super) const fn new(high: f64, low: f64) -> Self {
+    pub(crate) const fn new(high: f64, low: f64) -> Self {
         Self { high, low }
     }
 
@@ -55,9 +58,16 @@ impl Double {
         }
     }
 
-    /// a·b exactly. The fused operation is a call where the target lacks it, which is why
-    /// consecutive steps, the frequent case of every function, do without products of pairs.
+    /// a·b exactly. The fused operation is a call where the target lacks it; there factors
+    /// that can be split without overflow are.
+    #[inline]
     pub(super) fn product(a: f64, b: f64) -> Self {
+        const LARGEST: f64 = 1e150;
+        let has_fused = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+        if !has_fused && a.abs() < LARGEST && b.abs() < LARGEST {
+            let (high, low) = two_product(a, b);
+            return Self { high, low };
+        }
         let high = a * b;
         let low = a.mul_add(b, -high);
         Self { high, low }
@@ -77,6 +87,7 @@ impl Double {
 }
 
 impl From<f64> for Double {
+    #[inline]
     fn from(value: f64) -> Self {
         Self {
             high: value,
@@ -88,6 +99,7 @@ impl From<f64> for Double {
 impl Neg for Double {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self {
             high: -self.high,
@@ -99,6 +111,7 @@ impl Neg for Double {
 impl Add for Double {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         let high = Self::sum(self.high, other.high);
         let low = Self::sum(self.low, other.low);
@@ -110,6 +123,7 @@ impl Add for Double {
 impl Sub for Double {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -118,9 +132,10 @@ impl Sub for Double {
 impl Mul for Double {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
-        let cross = self.high.mul_add(other.low, self.low * other.high);
+        let cross = self.high.fused(other.low, self.low * other.high);
         fast_two_sum(product.high, product.low + cross)
     }
 }

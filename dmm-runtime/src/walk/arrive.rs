@@ -4,11 +4,13 @@
 //! The root of g along the polynomial is found by Halley's method, with d²g/dt² from the cubic
 //! between the start of the step and the point. The rest, so small that the flow is a straight
 //! line over it, is taken together with what is off the level: with u = −Λ⁺(ψ − ψ_ref) and
-//! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ.
+//! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ. The
+//! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
+//! hold to some thirty digits, and transitions add nothing to the level.
 
 use crate::error::Error;
-use crate::level::Level;
-use crate::linear::is_finite;
+use crate::level::{Level, switching_in_pairs};
+use crate::linear::{dot, is_finite};
 use crate::observer::Observer;
 use crate::scheme::Taylor;
 use crate::series::jet::Jet;
@@ -16,6 +18,7 @@ use crate::state::State;
 use crate::system::{Boundary, Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
+use crate::walk::expand::Here;
 use crate::walk::{SegmentEnd, Walk};
 
 /// Corrections of a crossing.
@@ -56,11 +59,28 @@ impl<const N: usize> Approach<N> {
         let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
         let field = flow.vector_field(time.value, &state.x);
         Self {
-            value: value + gradient.dot(&state.remainder) + by_time * time.remainder,
-            rate: by_time + gradient.dot(&field),
+            value: value + dot(&gradient, &state.remainder) + by_time * time.remainder,
+            rate: by_time + dot(&gradient, &field),
             gradient,
             field,
         }
+    }
+
+    /// Moves the time and the state by `off` and along the field such that g = 0; returns by how
+    /// much the state moved.
+    #[inline(always)]
+    fn remove(
+        &self,
+        time: &mut Time,
+        state: &mut State<N>,
+        off: &Vector<f64, N>,
+    ) -> Vector<f64, N> {
+        let delta = -(self.value + dot(&self.gradient, off)) / self.rate;
+        let displacement = off + self.field * delta;
+        state.remainder += displacement;
+        *state = state.normalised();
+        *time = time.after(delta);
+        displacement
     }
 }
 
@@ -90,7 +110,8 @@ where
             });
         };
         let elapsed = time.since(self.time).clamp(0.0, tau);
-        self.outputs_along::<P, M, F>(flow, level, jet, elapsed, time)?;
+        let here = Here::of(self);
+        self.outputs_along::<P, M, F>(flow, level, jet, &here, (elapsed, time));
         self.state = state;
         self.time = time;
         self.statistics.steps += 1;
@@ -139,7 +160,8 @@ where
         None
     }
 
-    /// Takes g and what is off the level of ψ off a point close to the interface.
+    /// Takes g and what is off the level of ψ off a point close to the interface: in doubles
+    /// until what is left is of the size of their rounding errors, then once in pairs of doubles.
     #[inline(always)]
     fn settle_on<const M: usize, F: Flow<f64, N, M>>(
         &self,
@@ -149,23 +171,30 @@ where
         (mut time, mut state): (Time, State<N>),
         mut approach: Approach<N>,
     ) -> Option<(Time, State<N>, f64)> {
-        /// Beyond it the error of second order is more than a rounding error.
-        const SMALL: f64 = 1e-9;
+        /// A displacement of this part of the state has an error of second order far below a
+        /// rounding error of doubles, and after one more of pairs.
+        const SMALL: f64 = 1e-11;
         let corrects = self.scheme.corrects_level();
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
                 true => level.correction(flow, time, &state),
                 false => Vector::zeros(),
             };
-            let delta = -(approach.value + approach.gradient.dot(&off)) / approach.rate;
-            let displacement = off + approach.field * delta;
-            state.remainder += displacement;
-            state = state.normalised();
-            time = time.after(delta);
-            if displacement.norm_squared() <= SMALL * SMALL * state.x.norm_squared() {
+            let displacement = approach.remove(&mut time, &mut state, &off);
+            let size = dot(&displacement, &displacement);
+            approach = Approach::at(flow, interface, time, &state);
+            if size <= SMALL * SMALL * dot(&state.x, &state.x) {
+                approach.value = switching_in_pairs(flow, interface, time, &state);
+                let off = match corrects {
+                    true => {
+                        let (_, multiplier) = flow.multiplier(time.value, &state.x);
+                        level.towards(&multiplier, &level.residual(flow, time, &state))
+                    }
+                    false => Vector::zeros(),
+                };
+                approach.remove(&mut time, &mut state, &off);
                 return is_finite(&state.x).then_some((time, state, approach.rate));
             }
-            approach = Approach::at(flow, interface, time, &state);
         }
         None
     }

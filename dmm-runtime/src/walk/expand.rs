@@ -3,7 +3,7 @@
 
 use crate::error::{Error, StepFailure};
 use crate::level::Level;
-use crate::linear::is_finite;
+use crate::linear::{dot, is_finite};
 use crate::observer::{Observer, Point};
 use crate::scalar::Scalar;
 use crate::scheme::Taylor;
@@ -31,71 +31,73 @@ where
         &mut self,
         flow: &F,
     ) -> Result<SegmentEnd, Error> {
-        let end = Time::new(self.progress.end);
-        let mut level = Level::enter(flow, self.time, &self.state);
+        let mut here = Here::of(self);
         let mut jet = Jet::<F, N, M, P>::new(self.scheme.order());
-        let mut fresh = self.fresh;
-        let mut count = 0u64;
-        let fraction = self.progress.fraction;
-        let corrects = self.scheme.corrects_level();
-        loop {
-            let remaining = end.since(self.time);
-            if remaining <= 0.0 {
-                return Ok(SegmentEnd::Finished);
+        jet.expand(flow, here.time.value, &here.state.x);
+        // after the chain of recurrences, which leaves the processor time for it
+        let level = Level::enter(flow, here.time, &here.state);
+        let end = self.steps::<P, M, F>(flow, level, &mut jet, &mut here);
+        self.time = here.time;
+        self.state = here.state;
+        self.progress.step = here.before;
+        self.statistics.steps += here.steps;
+        match end {
+            Ended::At(end) => Ok(end),
+            Ended::Before { found, tau, level } => {
+                self.arrive::<P, M, F>(flow, &level, &jet, &found, tau)
             }
-            jet.expand(flow, self.time.value, &self.state.x);
-            let wanted = jet.step(fraction, self.progress.step);
-            let (tau, time) = self.step_to::<M, F>(wanted, remaining)?;
-            let state = self.state.after(&jet.increment(tau));
-            if !sides::<N, M, F>().is_empty() {
-                let step = (tau, time, &state);
-                if let Some(found) = self.look_ahead::<P, M, F>(flow, &mut jet, step, fresh) {
-                    return self.arrive::<P, M, F>(flow, &level, &jet, &found, tau);
-                }
-            }
-            self.outputs_along::<P, M, F>(flow, &level, &jet, tau, time)?;
-            count += 1;
-            if count.is_multiple_of(RESCALING) {
-                level.rescale(flow, self.time.value, &self.state);
-            }
-            let state = level.reached(flow, time, state, corrects);
-            if !is_finite(&state.x) {
-                return Err(self.failure(StepFailure::NotFinite, tau));
-            }
-            self.state = state;
-            self.time = time;
-            self.progress.step = wanted;
-            self.statistics.steps += 1;
-            fresh = None;
-            if self.tell_point().is_break() {
-                return Ok(SegmentEnd::Stopped);
-            }
+            Ended::Not(tau) => Err(self.failure(StepFailure::NotFinite, tau)),
         }
     }
 
-    /// The size and the end of a step of about `wanted`.
+    /// The steps, from local variables to local variables; `jet` is that of the start.
     #[inline(always)]
-    fn step_to<const M: usize, F: Flow<f64, N, M>>(
-        &self,
-        wanted: f64,
-        remaining: f64,
-    ) -> Result<(f64, Time), Error> {
-        if wanted >= remaining {
-            return Ok((remaining, Time::new(self.progress.end)));
-        }
-        let time = match F::AUTONOMOUS {
-            true => self.time.after(wanted),
-            // the formulas are evaluated at a double
-            false => Time::new(self.time.value + wanted),
-        };
-        let tau = match F::AUTONOMOUS {
-            true => wanted,
-            false => time.since(self.time),
-        };
-        if tau > 0.0 && time != self.time {
-            Ok((tau, time))
-        } else {
-            Err(self.failure(StepFailure::NotFinite, wanted))
+    fn steps<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        mut level: Level<N, M>,
+        jet: &mut Jet<F, N, M, P>,
+        here: &mut Here<N>,
+    ) -> Ended<N, M> {
+        let end = self.progress.end;
+        let fraction = self.progress.fraction;
+        let corrects = self.scheme.corrects_level();
+        let mut fresh = self.fresh;
+        loop {
+            let remaining = (end - here.time.value) - here.time.remainder;
+            if remaining <= 0.0 {
+                return Ended::At(SegmentEnd::Finished);
+            }
+            let wanted = jet.step(fraction, here.before);
+            let Some((tau, time)) = step_to::<N, M, F>(here.time, wanted, (remaining, end)) else {
+                return Ended::Not(wanted);
+            };
+            let mut state = here.state.after(&jet.increment(tau));
+            if !sides::<N, M, F>().is_empty() {
+                let step = (tau, time, &state);
+                if let Some(found) = self.look_ahead::<P, M, F>(flow, jet, here, step, fresh) {
+                    return Ended::Before { found, tau, level };
+                }
+            }
+            if self.observer.next_output().is_some() {
+                self.outputs_along::<P, M, F>(flow, &level, jet, here, (tau, time));
+            }
+            state = level.reached(flow, time, state, corrects);
+            if !is_finite(&state.x) {
+                return Ended::Not(tau);
+            }
+            here.state = state;
+            here.time = time;
+            here.before = wanted;
+            here.steps += 1;
+            fresh = None;
+            if here.steps.is_multiple_of(RESCALING) {
+                level.rescale(flow, here.time.value, &here.state);
+            }
+            if self.observer.point(&here.point(self.region)).is_break() {
+                return Ended::At(SegmentEnd::Stopped);
+            }
+            jet.expand(flow, here.time.value, &here.state.x);
         }
     }
 
@@ -105,6 +107,7 @@ where
         &mut self,
         flow: &F,
         jet: &mut Jet<F, N, M, P>,
+        here: &Here<N>,
         (tau, time, state): (f64, Time, &State<N>),
         fresh: Option<usize>,
     ) -> Option<Found> {
@@ -115,14 +118,14 @@ where
         };
         let mut once: Option<Found> = None;
         let mut near = false;
-        jet.first_switching(flow, self.time.value, |series| {
+        jet.first_switching(flow, here.time.value, |series| {
             for &(interface, side) in sides::<N, M, F>() {
                 let c = &series[interface];
                 let boundary = flow.boundary();
                 let value = boundary.switching_function(interface, time.value, &state.x);
                 let (by_time, gradient) =
                     boundary.switching_gradient(interface, time.value, &state.x);
-                let slope = by_time + gradient.dot(&field);
+                let slope = by_time + dot(&gradient, &field);
                 let fresh = fresh == Some(interface);
                 match glimpse.at(c, (value, slope), side.sign(), fresh) {
                     Glance::Out => {}
@@ -139,7 +142,7 @@ where
             }
         });
         match near {
-            true => self.first::<P, M, F>(flow, jet, tau, fresh),
+            true => self.first::<P, M, F>(flow, jet, here, tau, fresh),
             false => once,
         }
     }
@@ -151,10 +154,12 @@ where
         &mut self,
         flow: &F,
         jet: &mut Jet<F, N, M, P>,
+        here: &Here<N>,
         tau: f64,
         fresh: Option<usize>,
     ) -> Option<Found> {
-        jet.expand_switching(flow, self.time.value);
+        let (t, x) = (here.time.value, &here.state.x);
+        jet.expand_switching(flow, t);
         let mut first: Option<Found> = None;
         for &(interface, side) in sides::<N, M, F>() {
             let sign = side.sign();
@@ -162,9 +167,7 @@ where
             if !series.iter().all(|c| c.is_finite()) {
                 return None;
             }
-            let size = flow
-                .boundary()
-                .switching_size(interface, self.time.value, &self.state.x);
+            let size = flow.boundary().switching_size(interface, t, x);
             let noise = NOISE * f64::ROUNDING * size;
             let on_it = fresh == Some(interface) || (series[0] <= noise && series[1] > 0.0);
             // on the interface zero is a root, which is divided off
@@ -189,33 +192,101 @@ where
         first
     }
 
-    /// Serves the output times up to `end`, the end of a step over `tau`.
-    #[inline(always)]
+    /// Serves the output times of a step over `tau` that ends at `end`.
     pub(super) fn outputs_along<const P: usize, const M: usize, F: Flow<f64, N, M>>(
         &mut self,
         flow: &F,
         level: &Level<N, M>,
         jet: &Jet<F, N, M, P>,
-        tau: f64,
-        end: Time,
-    ) -> Result<(), Error> {
+        here: &Here<N>,
+        (tau, end): (f64, Time),
+    ) {
+        let corrects = self.scheme.corrects_level();
         while let Some(t) = self.observer.next_output()
             && t <= end.value
         {
-            let elapsed = Time::new(t).since(self.time).max(0.0).min(tau);
-            let corrects = self.scheme.corrects_level();
-            let state = self.state.after(&jet.increment(elapsed));
-            let state = level.reached(flow, Time::new(t), state, corrects);
+            let time = Time::new(t);
+            let elapsed = time.since(here.time).max(0.0).min(tau);
+            let state = here.state.after(&jet.increment(elapsed));
+            let state = level.reached(flow, time, state, corrects);
             let point = Point {
                 t,
-                time: Time::new(t),
+                time,
                 x: state.rounded(),
                 region: self.region,
             };
             self.observer.output(&point);
         }
-        Ok(())
     }
+}
+
+/// Where the steps are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Here<const N: usize> {
+    pub(super) time: Time,
+    pub(super) state: State<N>,
+    /// The size of the step before, or 0.
+    before: f64,
+    /// How many there were.
+    steps: u64,
+}
+
+impl<const N: usize> Here<N> {
+    /// Where a walk is.
+    #[inline(always)]
+    pub(super) fn of<Sys: System<N>, Loc, Obs>(walk: &Walk<'_, Sys, Taylor, Loc, Obs, N>) -> Self {
+        Self {
+            time: walk.time,
+            state: walk.state,
+            before: walk.progress.step,
+            steps: 0,
+        }
+    }
+
+    #[inline(always)]
+    fn point<R>(&self, region: R) -> Point<R, N> {
+        Point {
+            t: self.time.value,
+            time: self.time,
+            x: self.state.rounded(),
+            region,
+        }
+    }
+}
+
+/// How the steps ended.
+enum Ended<const N: usize, const M: usize> {
+    At(SegmentEnd),
+    /// With one over `tau` to be made, in which an interface is met.
+    Before {
+        found: Found,
+        tau: f64,
+        level: Level<N, M>,
+    },
+    /// With one of this size that cannot be made.
+    Not(f64),
+}
+
+/// The size and the end of a step of about `wanted`; nothing if it is none.
+#[inline(always)]
+fn step_to<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    start: Time,
+    wanted: f64,
+    (remaining, end): (f64, f64),
+) -> Option<(f64, Time)> {
+    if wanted >= remaining {
+        let end = Time::new(end);
+        return Some((end.since(start), end));
+    }
+    let (tau, time) = match F::AUTONOMOUS {
+        true => (wanted, start.after(wanted)),
+        // the formulas are evaluated at a double
+        false => {
+            let time = Time::new(start.value + wanted);
+            (time.since(start), time)
+        }
+    };
+    (tau > 0.0 && time != start).then_some((tau, time))
 }
 
 /// The interfaces that bound the region of a flow, with its sides.

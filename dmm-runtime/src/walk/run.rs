@@ -83,6 +83,7 @@ where
         t,
         time: walk.time,
         x,
+        remainder: walk.state.remainder,
         interface,
         from,
         to,

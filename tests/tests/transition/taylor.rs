@@ -142,9 +142,9 @@ fn the_end_of_a_solution_is_a_typed_error_with_the_solution_before_it() {
     );
     let solution = interrupted.solution();
     assert!((solution.last().unwrap().t - 1.0).abs() < 1e-12);
-    // near the end the flow enlarges what the roundings of the steps before make
+    // some errors of a step, 10⁻¹⁵ of the state each, which the flow enlarges near the end
     let error = (solution.at(0.75).unwrap()[0] - 0.5).abs();
-    assert!(error < 1e-14, "{error:e}");
+    assert!(error < 3e-14, "{error:e}");
     let interrupted = start(&Growing::default(), [1.0])
         .run_until(100.0)
         .unwrap_err();

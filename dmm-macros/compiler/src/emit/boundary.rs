@@ -152,6 +152,8 @@ fn implementation(
         })
     });
     let series = series(functions, nodes);
+    let other = &emission.other;
+    let fields = functions.store.converted(scalar, other);
     let unknown = quote! {(
         #scalar::from_f64(f64::NAN),
         #vector::<#scalar, #states>::from_element(#scalar::from_f64(f64::NAN)),
@@ -172,6 +174,11 @@ fn implementation(
             #[inline]
             fn each<T: ::core::marker::Copy>(value: impl FnMut(usize) -> T) -> [T; COUNT] {
                 ::core::array::from_fn(value)
+            }
+            type Over<#other: #bound> = #name<#other, REGION, COUNT>;
+            #[inline]
+            fn over<#other: #bound>(&self) -> Self::Over<#other> {
+                #name { #fields }
             }
             /// g(t, x)
             #[inline]

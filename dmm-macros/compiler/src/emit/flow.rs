@@ -99,6 +99,12 @@ fn implementation(
     let point = point_functions(functions, nodes, scalar);
     let step = step_functions(functions, &nodes.discrete, scalar);
     let series = series(functions, nodes);
+    let other = &emission.other;
+    let fields = functions.store.converted(scalar, other);
+    let boundary_field = (emission.boundary.as_ref()).map(|_| {
+        let trait_path = paths::support("Boundary");
+        quote!(boundary: #trait_path::over(&self.boundary),)
+    });
     quote! {
         #[automatically_derived]
         impl<#scalar: #bound> #flow<#scalar, #states, #conserved> for #name<#scalar> {
@@ -106,6 +112,11 @@ fn implementation(
             #affine
             const SOLVABILITY: #solvability = #solvability::#kind;
             #boundary
+            type Over<#other: #bound> = #name<#other>;
+            #[inline]
+            fn over<#other: #bound>(&self) -> #name<#other> {
+                #name { #boundary_field #fields }
+            }
             #point
             #step
             #series

@@ -68,6 +68,15 @@ impl Store {
         }
     }
 
+    /// The field values of the same flow or boundary over the scalar `other`.
+    pub(super) fn converted(&self, scalar: &Ident, other: &Ident) -> TokenStream {
+        let fields = self.parameters.values().chain(self.computed.values());
+        quote! {
+            #(#fields: #other::from_f64(#scalar::to_f64(self.#fields)),)*
+            _scalar: ::core::marker::PhantomData,
+        }
+    }
+
     /// The statements and field values of the constructor `new(system: &System)`.
     pub(super) fn constructor(
         &self,

@@ -30,6 +30,8 @@ pub(super) struct Emission<'a> {
     pub parameters: Vec<Name>,
     /// The generic type of the scalars.
     pub scalar: Ident,
+    /// That of other scalars.
+    pub other: Ident,
     /// The enumeration of the regions.
     pub region: Ident,
     /// Its variants, by region.
@@ -61,6 +63,7 @@ impl<'a> Emission<'a> {
                 .map(|one| one.name.clone())
                 .collect(),
             scalar: types.take("S"),
+            other: types.take("Other"),
             region,
             variants: camel.iter().map(|name| variants.take(name)).collect(),
             flows: camel

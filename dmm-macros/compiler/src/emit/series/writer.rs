@@ -107,7 +107,7 @@ impl Writer<'_, '_> {
         }
         if !self.folded.contains(&id) {
             let value = self.coefficient(id);
-            return product(&value, &scale);
+            return Self::call("scaled", &[value, scale]);
         }
         if let Some((u, factor)) = self.multiple(id) {
             let scale = match factor {
@@ -130,7 +130,8 @@ impl Writer<'_, '_> {
         };
         let slot = self.series.slot(Slot::Node(a));
         let half = Self::call("half_square", &[quote!(&#slot)]);
-        product(&half, &product(&quote!(#scalar::from_f64(2.0)), &scale))
+        let scale = product(&quote!(#scalar::from_f64(2.0)), &scale);
+        Self::call("scaled", &[half, scale])
     }
 
     /// Coefficient k of a node, kept in its slot if it has one.

@@ -1,0 +1,289 @@
+//! Generated functions in pairs of doubles.
+//!
+//! ψ and g evaluated at the unevaluated sum of a state and its remainder: what a level is pinned
+//! by at a transition, and where ψ has so little slope that its rounding error matters. Sums and
+//! products have about 104 bits, the elementary functions about 100. A divided difference has
+//! those of a double: it is no part of ψ or g.
+//!
+//! The functions of an argument that is not small are reduced: eᵘ = 2ᵏ eʳ, sin and cos by
+//! multiples of π/2 (up to |u| of 2²⁰ or so; beyond it digits of u are lost like those of π).
+//! Inverse functions take one step of Newton's method from that of a double, whose error is
+//! squared by it.
+
+use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
+use std::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
+
+use super::double::Double;
+use super::extended::Extended;
+use super::series::power_series;
+use crate::scalar::Scalar;
+use crate::special;
+
+/// What ln 2 as a double lacks: the next 53 bits.
+const LN_2_LOW: f64 = 2.319_046_813_846_299_6e-17;
+
+/// The coefficients of a power series that are pairs.
+const PAIRS: usize = 17;
+/// All of them: |u| ≤ π/4 to the 29th over 29! is 10⁻³⁴.
+const TERMS: usize = 29;
+
+/// 1/n!; of the first ones with what the double lacks. (n! is a double up to 22!.)
+const INVERSE_FACTORIALS: [(f64, f64); TERMS] = {
+    let mut table = [(1.0, 0.0); TERMS];
+    let mut factorial = 1.0;
+    let mut n = 1;
+    while n < TERMS {
+        factorial *= n as f64;
+        let high = 1.0 / factorial;
+        table[n] = match n < PAIRS {
+            true => (high, remainder(high, factorial) / factorial),
+            false => (high, 0.0),
+        };
+        n += 1;
+    }
+    table
+};
+
+/// 1 − a·b, where the product is almost 1: exact (Dekker 1971).
+const fn remainder(a: f64, b: f64) -> f64 {
+    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
+    const fn high(v: f64) -> f64 {
+        let c = SPLITTER * v;
+        c - (c - v)
+    }
+    let p = a * b;
+    let (ah, bh) = (high(a), high(b));
+    let (al, bl) = (a - ah, b - bh);
+    let error = ((ah * bh - p) + ah * bl + al * bh) + al * bl;
+    (1.0 - p) - error
+}
+
+/// Every other 1/n! of the doubles, the even ones from `first` = 0 on, the odd ones from 1 on.
+const fn trailing(first: usize) -> [f64; (TERMS - PAIRS) / 2] {
+    let mut coefficients = [0.0; (TERMS - PAIRS) / 2];
+    let mut k = 0;
+    while k < coefficients.len() {
+        coefficients[k] = INVERSE_FACTORIALS[first + PAIRS - 1 + 2 * k].0;
+        k += 1;
+    }
+    coefficients
+}
+
+impl Double {
+    /// Σ xᵏ/(first + 2k)!, over as many pairs and then doubles as there are.
+    fn every_other(first: usize, x: Self) -> Self {
+        const EVEN: [f64; (TERMS - PAIRS) / 2] = trailing(0);
+        const ODD: [f64; (TERMS - PAIRS) / 2] = trailing(1);
+        let doubles = if first == 0 { &EVEN } else { &ODD };
+        let mut sum = Self::from(power_series(x.high, doubles));
+        for k in (0..PAIRS / 2).rev() {
+            let (high, low) = INVERSE_FACTORIALS[first + 2 * k];
+            sum = Self::new(high, low) + x * sum;
+        }
+        sum
+    }
+
+    /// cosh r and sinh r, for |r| ≤ 1
+    fn hyperbolic(self) -> (Self, Self) {
+        let square = self * self;
+        (
+            Self::every_other(0, square),
+            self * Self::every_other(1, square),
+        )
+    }
+
+    /// cos u and sin u
+    fn circular(self) -> (Self, Self) {
+        let turns = (self.high * FRAC_2_PI).round();
+        let r = self - Self::from(turns) * Self::FRAC_PI_2;
+        let square = -(r * r);
+        let (c, s) = (
+            Self::every_other(0, square),
+            r * Self::every_other(1, square),
+        );
+        match turns.rem_euclid(4.0) {
+            1.0 => (-s, c),
+            2.0 => (-c, -s),
+            3.0 => (s, -c),
+            _ => (c, s),
+        }
+    }
+
+    /// u·2ᵏ
+    fn scaled(self, k: f64) -> Self {
+        // in two factors, each of which is a double
+        let half = (0.5 * k).trunc();
+        let (a, b) = (half.exp2(), (k - half).exp2());
+        Self::new(self.high * a * b, self.low * a * b)
+    }
+}
+
+impl AddAssign for Double {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Double {
+    #[inline]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign for Double {
+    #[inline]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl DivAssign for Double {
+    #[inline]
+    fn div_assign(&mut self, other: Self) {
+        *self = *self / other;
+    }
+}
+
+/// The functions that have the digits of a double.
+macro_rules! as_doubles {
+    ($($function:ident($($other:ident)?))*) => {$(
+        fn $function(self $(, $other: Self)?) -> Self {
+            Self::from(special::$function(self.high $(, $other.high)?))
+        }
+    )*};
+}
+
+impl Scalar for Double {
+    const ROUNDING: Self = Self::new(1.0 / (1_u128 << 104) as f64, 0.0);
+
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        Self::from(value)
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.high
+    }
+
+    #[inline]
+    fn fused(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        if self.high < 0.0 { -self } else { self }
+    }
+
+    fn sqrt(self) -> Self {
+        Extended::sqrt(self)
+    }
+
+    fn exp(self) -> Self {
+        let k = (self.high * LOG2_E).round();
+        if !(k.abs() < 1020.0) {
+            return Self::from(self.high.exp());
+        }
+        let r = self - Self::from(k) * Self::new(LN_2, LN_2_LOW);
+        let (c, s) = r.hyperbolic();
+        (c + s).scaled(k)
+    }
+
+    fn ln(self) -> Self {
+        let y = self.high.ln();
+        if !y.is_finite() {
+            return Self::from(y);
+        }
+        let ratio = self * Scalar::exp(Self::from(-y));
+        Self::from(y) + (ratio - Self::from(1.0))
+    }
+
+    fn sin(self) -> Self {
+        self.circular().1
+    }
+
+    fn cos(self) -> Self {
+        self.circular().0
+    }
+
+    fn tan(self) -> Self {
+        let (c, s) = self.circular();
+        s / c
+    }
+
+    fn sinh(self) -> Self {
+        if self.high.abs() <= 1.0 {
+            return self.hyperbolic().1;
+        }
+        let e = Scalar::exp(self);
+        Self::from(0.5) * (e - Self::from(1.0) / e)
+    }
+
+    fn cosh(self) -> Self {
+        let e = Scalar::exp(self);
+        Self::from(0.5) * (e + Self::from(1.0) / e)
+    }
+
+    fn tanh(self) -> Self {
+        // beyond it 1 to the last digit, and e²ᵘ too large
+        if self.high.abs() > 40.0 {
+            return Self::from(1.0_f64.copysign(self.high));
+        }
+        Scalar::sinh(self) / Scalar::cosh(self)
+    }
+
+    fn asin(self) -> Self {
+        let y = self.high.asin();
+        let (c, s) = Self::from(y).circular();
+        match c.high > 0.0 && y.is_finite() {
+            true => Self::from(y) + (self - s) / c,
+            false => Self::from(y),
+        }
+    }
+
+    fn acos(self) -> Self {
+        Self::FRAC_PI_2 - Scalar::asin(self)
+    }
+
+    fn atan(self) -> Self {
+        let y = self.high.atan();
+        if !self.high.is_finite() {
+            return Self::from(y);
+        }
+        let (c, s) = Self::from(y).circular();
+        Self::from(y) + (self * c - s) / (c + self * s)
+    }
+
+    fn powi(self, n: i32) -> Self {
+        let mut power = Self::from(1.0);
+        let (mut base, mut left) = (self, n.unsigned_abs());
+        while left > 0 {
+            if left % 2 == 1 {
+                power *= base;
+            }
+            base *= base;
+            left /= 2;
+        }
+        if n < 0 {
+            Self::from(1.0) / power
+        } else {
+            power
+        }
+    }
+
+    fn powf(self, v: Self) -> Self {
+        Scalar::exp(v * Scalar::ln(self))
+    }
+
+    fn exp_product(self, b: Self) -> Self {
+        Scalar::exp(self * b)
+    }
+
+    as_doubles! {
+        sinc() sinc_prime() sinhc() sinhc_prime()
+        ln_dd(b) ln_dd_prime(b) asin_dd(b) asin_dd_prime(b) atan_dd(b) atan_dd_prime(b)
+    }
+}
