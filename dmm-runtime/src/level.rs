@@ -32,6 +32,8 @@ impl<const N: usize, const M: usize> Level<N, M> {
     /// Where the slope is smaller than this, rounding errors of ψ would move the state by more
     /// than some units in its last place.
     const LITTLE: f64 = 1.0 / 16.0;
+    /// Rounding errors of ψ are below this part of its terms.
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
     /// σ: where the slope is smaller than this, the second order of r is more than a rounding
     /// error of ψ.
     const NONE: f64 = 1e-6;
@@ -143,9 +145,11 @@ impl<const N: usize, const M: usize> Level<N, M> {
         state: &State<N>,
     ) -> bool {
         let (psi, multiplier) = flow.multiplier(time.value, &state.x);
-        let residual = (psi - self.reference) + multiplier * remainder(flow, time, state);
-        let mut errors = residual.iter().zip(&self.noise);
-        errors.any(|(residual, noise)| residual.abs() > 0.25 * noise)
+        let drift = multiplier * remainder(flow, time, state) - self.remainder;
+        let residual = (psi - self.reference) + drift;
+        let size = flow.conserved_size(time.value, &state.x);
+        let mut errors = residual.iter().zip(&size);
+        errors.any(|(residual, size)| residual.abs() > Self::ROUNDING * size)
     }
 
     /// The state that a step has come to, put back on the level if it `corrects`.

@@ -68,6 +68,12 @@ pub fn step<S: Scalar, K: Order>(k: K) -> S {
     inverse(k.get() + 1)
 }
 
+/// 1/(k + 2): the same for the coefficient after that, if there is one.
+#[inline(always)]
+pub fn next_step<S: Scalar, K: Order>(k: K) -> S {
+    inverse(k.get() + 2)
+}
+
 /// u·s, for coefficient k of a component.
 ///
 /// Those of odd order by a fused operation: coefficients of consecutive orders are stored side by

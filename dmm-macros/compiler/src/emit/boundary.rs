@@ -209,7 +209,7 @@ fn series(functions: &Functions<'_>, nodes: &[Nodes]) -> TokenStream {
     let series = Series::new(lowered, store, scalar, states, States::Given, &roots, first);
     let slots = paths::count(first + series.slots());
     let unrolled = series.unrolled();
-    let body = series.body(None, |values| {
+    let body = series.body(None, |values, _| {
         let places = (0..values.len()).map(paths::count);
         quote!(#(series[#places][at] = #values;)*)
     });

@@ -147,6 +147,11 @@ impl<'a> Block<'a> {
             .unwrap_or_default()
     }
 
+    /// A name that nothing has yet.
+    pub(super) fn fresh(&mut self, stem: &str) -> Ident {
+        self.names.number(stem)
+    }
+
     /// Appends `statement`.
     pub(super) fn push(&mut self, statement: TokenStream) {
         self.statements.push(statement);

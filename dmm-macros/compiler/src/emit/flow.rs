@@ -144,9 +144,19 @@ fn series(functions: &Functions<'_>, nodes: &Nodes) -> TokenStream {
     let slots = paths::count(states.len() + series.slots());
     let unrolled = series.unrolled();
     let step = quote!(dmm::series::step::<#scalar, K>(k));
-    let body = series.body(Some(&step), |values| {
-        let places = (0..values.len()).map(paths::count);
-        quote!(#(series[#places][at + 1] = #values;)*)
+    let body = series.body(Some(&step), |values, later| {
+        let states = values.iter().zip(later).enumerate();
+        let statements = states.map(|(place, (value, later))| {
+            let place = paths::count(place);
+            match later {
+                None => quote!(series[#place][at + 1] = #value;),
+                Some(later) => quote! {
+                    if at == 0 { series[#place][1] = #value; }
+                    if at + 2 < P { series[#place][at + 2] = #later; }
+                },
+            }
+        });
+        quote!(#(#statements)*)
     });
     quote! {
         type Series<const P: usize> = [[#scalar; P]; #slots];

@@ -214,11 +214,13 @@ impl<'a> Series<'a> {
     /// roots' values.
     ///
     /// With a `scale` the values are multiplied by it: together with the constant factors of
-    /// the roots, so that it costs nothing.
+    /// the roots, so that it costs nothing. Then `finish` is also given, of every root that is a
+    /// multiple of a state, ẋᵢ = c xⱼ, the coefficient of xᵢ that follows on the new one of xⱼ:
+    /// from what that is made from, so that the chain of recurrences does not pass through xⱼ.
     pub(super) fn body(
         &self,
         scale: Option<&TokenStream>,
-        finish: impl FnOnce(&[TokenStream]) -> TokenStream,
+        finish: impl FnOnce(&[TokenStream], &[Option<TokenStream>]) -> TokenStream,
     ) -> TokenStream {
         let mut names = Names::reserving([
             "self", "k", "t", "at", "states", "series", "base", "sine", "cosine",
@@ -249,6 +251,7 @@ impl<'a> Series<'a> {
             block: block.fusing(),
             pairs: BTreeSet::new(),
             folded: BTreeSet::new(),
+            halves: BTreeMap::new(),
         };
         if scale.is_some() {
             self.roots.iter().for_each(|&root| writer.fold(root));
@@ -262,8 +265,14 @@ impl<'a> Series<'a> {
                 None => writer.coefficient(root),
             })
             .collect();
+        let later: Vec<Option<TokenStream>> = match scale {
+            Some(scale) => (self.roots.iter())
+                .map(|&root| writer.a_step_later(root, scale))
+                .collect(),
+            None => Vec::new(),
+        };
         let statements = writer.block.statements();
-        let finish = finish(&values);
+        let finish = finish(&values, &later);
         quote! {
             let at = k.get();
             #locals

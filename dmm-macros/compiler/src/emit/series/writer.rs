@@ -1,9 +1,9 @@
 //! The statements of one order: what is linear node by node, with the constant factors of a root
 //! brought together.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::{Series, Slot};
@@ -25,6 +25,8 @@ pub(super) struct Writer<'a, 'b> {
     pub(super) pairs: BTreeSet<(Function, Id)>,
     /// The nodes that exist only as factors of a root's scale.
     pub(super) folded: BTreeSet<Id>,
+    /// The halves of the squares among them that there are already.
+    pub(super) halves: BTreeMap<Id, Ident>,
 }
 
 impl Writer<'_, '_> {
@@ -128,10 +130,42 @@ impl Writer<'_, '_> {
         let Math::Mul([a, _]) = self.series.lowered.dag()[id] else {
             return quote!(compile_error!("no square"));
         };
-        let slot = self.series.slot(Slot::Node(a));
-        let half = Self::call("half_square", &[quote!(&#slot)]);
+        let half = match self.halves.get(&id) {
+            Some(half) => quote!(#half),
+            None => {
+                let slot = self.series.slot(Slot::Node(a));
+                let value = Self::call("half_square", &[quote!(&#slot)]);
+                let half = self.block.fresh("half");
+                self.block.push(quote!(let #half = #value;));
+                self.halves.insert(id, half.clone());
+                quote!(#half)
+            }
+        };
         let scale = product(&quote!(#scalar::from_f64(2.0)), &scale);
         Self::call("scaled", &[half, scale])
+    }
+
+    /// Of a root ẋᵢ = c xⱼ the coefficient k + 2 of xᵢ, from the root of xⱼ.
+    pub(super) fn a_step_later(&mut self, root: Id, scale: &TokenStream) -> Option<TokenStream> {
+        let (state, factor) = match self.multiple(root) {
+            Some((u, factor)) => (self.series.state(u)?, Some(factor)),
+            None => (self.series.state(root)?, None),
+        };
+        let source = *self.series.roots.get(state)?;
+        if !self.series.is_moving(source) {
+            return None;
+        }
+        let scalar = self.series.scalar;
+        let mut scale = product(scale, &quote!(dmm::series::next_step::<#scalar, K>(k)));
+        match factor {
+            Some(Factor::Minus) => scale = minus(true, &scale),
+            Some(Factor::Node(c)) => {
+                let c = self.fixed(c);
+                scale = product(&c, &scale);
+            }
+            None => {}
+        }
+        Some(self.scaled(source, scale))
     }
 
     /// Coefficient k of a node, kept in its slot if it has one.
