@@ -156,14 +156,14 @@ struct Search {
 impl Search {
     /// The coefficients on two parts of an interval, and where it is split: in the middle, or
     /// beside it where p is zero within rounding errors there, so that what lies below zero by
-    /// less than those is not cut in two, each with a change of sign.
-    fn split(&self, values: &[f64]) -> (f64, [Bernstein; 2]) {
+    /// less than those is not cut in two, each with a change of sign. Nothing if p is zero within
+    /// rounding errors at all of these places.
+    fn split(&self, values: &[f64]) -> Option<(f64, [Bernstein; 2])> {
         const PLACES: [f64; 5] = [0.5, 0.375, 0.625, 0.25, 0.75];
         let split = |at: f64| (at, parts(values, at));
         let is_clear =
             |(_, [_, (right, _)]): &(f64, [Bernstein; 2])| right[0].abs() > self.rounding;
-        let mut places = PLACES.into_iter().map(split);
-        places.find(is_clear).unwrap_or_else(|| split(PLACES[0]))
+        PLACES.into_iter().map(split).find(is_clear)
     }
 
     fn first(
@@ -190,15 +190,17 @@ impl Search {
             self.touches += 1;
             return None;
         }
-        let (at, [left, right]) = self.split(values);
-        let middle = lower + at * (upper - lower);
-        if depth == 0 || middle <= lower || middle >= upper {
+        let halves = self.split(values).filter(|_| depth > 0);
+        let halves = halves.map(|(at, halves)| (lower + at * (upper - lower), halves));
+        let Some((middle, [left, right])) =
+            halves.filter(|&(middle, _)| middle > lower && middle < upper)
+        else {
             if end <= 0.0 {
                 return Some((lower, upper));
             }
             self.touches += 1;
             return None;
-        }
+        };
         if let Some(found) = self.first(&left, (lower, middle), depth - 1) {
             return Some(found);
         }
@@ -295,12 +297,14 @@ mod tests {
 
     #[test]
     fn what_is_less_than_rounding_below_zero_is_a_touch() {
-        for middle in [0.5, 0.25, 0.75, 0.3] {
-            let mut coefficients = with_roots(&[middle, middle]);
-            coefficients[0] -= 1e-16;
-            let found = first_root(&coefficients, 1.0, 1e-14);
-            assert_eq!(found.first, None, "{middle}");
-            assert!(found.touches > 0);
+        for middle in [0.5, 0.25, 0.75, 0.3, 0.2] {
+            for rounding in [1e-14, 1e-15] {
+                let mut coefficients = with_roots(&[middle, middle]);
+                coefficients[0] -= 1e-16;
+                let found = first_root(&coefficients, 1.0, rounding);
+                assert_eq!(found.first, None, "{middle}");
+                assert!(found.touches > 0);
+            }
         }
     }
 

@@ -287,3 +287,80 @@ impl Scalar for Double {
         ln_dd(b) ln_dd_prime(b) asin_dd(b) asin_dd_prime(b) atan_dd(b) atan_dd_prime(b)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two numbers agree to some thirty digits.
+    fn assert_close(a: Double, b: Double, what: &str) {
+        let difference = (a - b).high.abs();
+        let size = a.high.abs().max(b.high.abs());
+        assert!(difference <= 1e-29 * size, "{what}: {a:?} {b:?}");
+    }
+
+    /// Arguments that are no doubles.
+    fn samples() -> impl Iterator<Item = Double> {
+        let thirds = (-20..=20).filter(|&k| k != 0);
+        thirds.map(|k| Double::from(0.37 * f64::from(k)) / Double::from(3.0))
+    }
+
+    #[test]
+    fn known_digits() {
+        // e, ln 2, sin 1, cos 1 and atan 1 = π/4 to 32 digits, as pairs
+        let one = Double::from(1.0);
+        let known = [
+            (
+                Scalar::exp(one),
+                std::f64::consts::E,
+                1.445_646_891_729_250_2e-16,
+            ),
+            (Scalar::ln(Double::from(2.0)), LN_2, LN_2_LOW),
+            (
+                Scalar::atan(one),
+                std::f64::consts::FRAC_PI_4,
+                3.061_616_997_868_383e-17,
+            ),
+        ];
+        for (value, high, low) in known {
+            assert_close(value, Double::new(high, low), "a constant");
+        }
+    }
+
+    #[test]
+    fn identities_hold_to_thirty_digits() {
+        let one = Double::from(1.0);
+        for u in samples() {
+            let (s, c) = (Scalar::sin(u), Scalar::cos(u));
+            assert_close(s * s + c * c, one, "sin² + cos²");
+            let (sh, ch) = (Scalar::sinh(u), Scalar::cosh(u));
+            assert_close(ch * ch, one + sh * sh, "cosh² − sinh²");
+            assert_close(Scalar::exp(u), ch + sh, "cosh + sinh");
+            assert_close(Scalar::tanh(u) * ch, sh, "tanh");
+            assert_close(Scalar::ln(Scalar::exp(u)) + one, u + one, "ln exp");
+            assert_close(Scalar::exp(u) * Scalar::exp(-u), one, "exp u exp −u");
+            // double angles reach other parts of the reductions
+            let two = u + u;
+            assert_close(Scalar::sin(two), Double::from(2.0) * (s * c), "sin 2u");
+            assert_close(Scalar::tan(u) * c, s, "tan");
+        }
+    }
+
+    #[test]
+    fn inverse_functions_are_inverse() {
+        for u in samples() {
+            assert_close(Scalar::tan(Scalar::atan(u)), u, "tan atan");
+            let v = Double::from(0.3) * u;
+            if v.high.abs() < 0.9 {
+                assert_close(Scalar::sin(Scalar::asin(v)), v, "sin asin");
+                assert_close(Scalar::cos(Scalar::acos(v)), v, "cos acos");
+            }
+            let root = Scalar::sqrt(Scalar::abs(u));
+            assert_close(root * root, Scalar::abs(u), "√u²");
+            assert_close(Scalar::powi(u, 3), u * u * u, "u³");
+            assert_close(Scalar::powi(u, -2) * (u * u), Double::from(1.0), "u⁻²");
+            let power = Scalar::powf(Scalar::abs(u), Double::from(1.5));
+            assert_close(power, Scalar::abs(u) * root, "u^(3/2)");
+        }
+    }
+}
