@@ -1,7 +1,7 @@
 //! The schemes by name: a row of [`methods!`] is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
-use dmm_runtime::{Composed, Scheme, Symmetric, Taylor};
+use dmm_runtime::{Best, Composed, Scheme, Symmetric, Taylor};
 
 use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
@@ -115,6 +115,8 @@ methods! {
         Composed8, "composed-8", order(8), |run| Composed::<8>::step_size(run.step_size).level_correction(run.level_correction);
         /// Taylor's method of high order, steps by a tolerance
         Taylor, "taylor", TOLERANCE, |run| Taylor::tolerance(run.tolerance).level_correction(run.level_correction);
+        /// the exact flow of regions that have one, else taylor
+        Best, "best", TOLERANCE, |run| Best::tolerance(run.tolerance).level_correction(run.level_correction);
     }
     for_comparison {
         /// the explicit midpoint rule, which does not conserve

@@ -268,6 +268,12 @@ impl<const N: usize> Ladder<N> {
         (state, offset, tau - offset)
     }
 
+    /// Whether a short time is so short that the node is the nearest one, or about that.
+    #[inline(always)]
+    pub(crate) fn is_next_to(&self, rest: f64) -> bool {
+        rest.abs() <= 1.25 * self.lowest
+    }
+
     /// The flow over short times.
     #[inline(always)]
     pub(crate) fn short(&self, at: State<N>) -> Short<N> {

@@ -8,8 +8,8 @@ use crate::series::polynomial::increment;
 use crate::state::State;
 use crate::system::Vector;
 
-/// Terms: half the lowest rung is at most 0.12/‖A‖, and the last one below 10⁻²⁰ there.
-pub(super) const TERMS: usize = 12;
+/// Terms: 5/4 of the lowest rung is at most 0.3/‖A‖, and the first one left out below 10⁻²³ there.
+pub(super) const TERMS: usize = 16;
 
 /// Aᵏ⁻¹/k!, k from 1.
 pub(super) type Powers<const N: usize> = [Rows<f64, N>; TERMS];

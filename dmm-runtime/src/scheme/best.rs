@@ -1,8 +1,8 @@
 //! The best that a system allows, region by region.
 
-use crate::error::Error;
-use crate::error::StepFailure;
+use crate::error::{Error, StepFailure};
 use crate::exact::{Ladder, Ladders, is_exact};
+use crate::linear::is_finite;
 use crate::observer::Observer;
 use crate::scheme::taylor::{self, Taylor};
 use crate::scheme::{Drive, Stuck};
@@ -155,7 +155,9 @@ impl Drive for Best {
         let ladder = Ladder::new(flow, tau);
         let reached = ladder.map(|mut ladder| ladder.reach(&State::new(x), tau).rounded());
         let failure = StepFailure::NotFinite;
-        reached.ok_or(Stuck { failure, t, x, tau })
+        reached
+            .filter(is_finite)
+            .ok_or(Stuck { failure, t, x, tau })
     }
 }
 

@@ -143,7 +143,7 @@ where
         ladder: &mut Ladder<N>,
         end: Time,
     ) -> Result<SegmentEnd, Error> {
-        let level = Level::enter(flow, self.time, &self.state);
+        let mut level = Level::enter(flow, self.time, &self.state);
         let at = Place::new(flow, self.time.value, self.state);
         let mut march = March {
             fresh: self.fresh,
@@ -167,7 +167,7 @@ where
             let room = match course {
                 Course::Free { room } => room,
                 Course::Crossing(found) => {
-                    return self.cross_on_flow(flow, ladder, &level, found, stretch.tau);
+                    return self.cross_on_flow(flow, ladder, &mut level, found, stretch.tau);
                 }
             };
             let time = match stretch.tau < remaining {
@@ -181,7 +181,7 @@ where
             march.advance(ladder, stretch.rung, room, stretch.end);
             count += 1;
             if count.is_multiple_of(INTERVAL)
-                && let Some(state) = self.held(flow, &level, time, march.at.state)
+                && let Some(state) = self.held(flow, &mut level, time, march.at.state)
             {
                 march.at = Place::new(flow, time.value, state);
             }
@@ -290,6 +290,9 @@ where
         let mut first = Course::Free { room: false };
         for (i, &(interface, side)) in sides::<N, M, F>().iter().enumerate() {
             let series = jet.switching(interface).map(|c| side.sign() * c);
+            if !series.iter().all(|c| c.is_finite()) {
+                return first;
+            }
             let size = flow.boundary().switching_size(interface, t, &self.state.x);
             let noise = NOISE * f64::ROUNDING * size;
             let on_it = fresh == Some(interface) || (series[0] <= noise && series[1] > 0.0);
@@ -315,43 +318,28 @@ where
         first
     }
 
-    /// Moves to the interface, about `elapsed` from here: t̂* and x̂* on the flow with g = 0.
+    /// Moves to the interface: t̂* and x̂* on the flow with g = 0.
     #[inline(always)]
     fn cross_on_flow<const M: usize, F: Flow<f64, N, M>>(
         &mut self,
         flow: &F,
         ladder: &mut Ladder<N>,
-        level: &Level<N, M>,
-        Found {
-            side,
-            elapsed,
-            precise,
-        }: Found,
+        level: &mut Level<N, M>,
+        found: Found,
         tau: f64,
     ) -> Result<SegmentEnd, Error> {
-        let (interface, _) = sides::<N, M, F>()[side];
-        let (node, offset, first) = ladder.node(&self.state, elapsed);
-        let short = ladder.short(node);
-        let middle = self.time.after(offset);
-        let (value, by_time, _) = switching(flow, interface, middle, &node);
-        let mut along = ladder.along(side, &short.field());
-        along[0] += by_time;
+        let (interface, _) = sides::<N, M, F>()[found.side];
         let failed = |walk: &Self| Error::LocationFailed {
             t: walk.time.value,
             x: walk.state.x.iter().copied().collect(),
             step_size: tau,
             interface: Sys::INTERFACES[interface],
         };
-        let start = match precise {
-            true => first,
-            false => -value * along[0] / (along[0] * along[0] - value * along[1]),
-        };
-        let rest = fall(value, &along, start, tau).ok_or_else(|| failed(self))?;
-        let mut time = middle.after(rest);
-        let mut state = short.after(rest);
+        let meeting = self.meet(flow, ladder, found, tau);
+        let (mut time, mut state) = meeting.ok_or_else(|| failed(self))?;
         let mut rate = slide(flow, interface, &mut time, &mut state);
-        if self.scheme.corrects_level() && level.strays(flow, time, &state) {
-            state = level.reached(flow, time, state, true);
+        if let Some(held) = self.held(flow, level, time, state) {
+            state = held;
             rate = slide(flow, interface, &mut time, &mut state);
         }
         if !is_finite(&state.x) || !rate.is_finite() {
@@ -368,18 +356,51 @@ where
         Ok(SegmentEnd::Crossed { interface, rate })
     }
 
+    /// Where the flow meets an interface, but for a slide along the field; nothing if the root of
+    /// g is not found where it has to be.
+    #[inline(always)]
+    fn meet<const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        ladder: &mut Ladder<N>,
+        found: Found,
+        tau: f64,
+    ) -> Option<(Time, State<N>)> {
+        /// Nodes to try: an estimate is mostly next to the right one.
+        const MOST_NODES: u32 = 16;
+        let (interface, _) = sides::<N, M, F>()[found.side];
+        let mut elapsed = found.elapsed;
+        for _ in 0..MOST_NODES {
+            let (node, offset, first) = ladder.node(&self.state, elapsed);
+            let short = ladder.short(node);
+            let time = self.time.after(offset);
+            let (value, by_time, _) = switching(flow, interface, time, &node);
+            let mut along = ladder.along(found.side, &short.field());
+            along[0] += by_time;
+            let start = match found.precise {
+                true => first,
+                false => -value * along[0] / (along[0] * along[0] - value * along[1]),
+            };
+            let rest = fall(value, &along, start, tau)?;
+            if ladder.is_next_to(rest) {
+                return Some((time.after(rest), short.after(rest)));
+            }
+            elapsed = (offset + rest).clamp(0.0, tau);
+        }
+        None
+    }
+
     /// The state put back on its level, if it has left it.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn held<const M: usize, F: Flow<f64, N, M>>(
         &self,
         flow: &F,
-        level: &Level<N, M>,
+        level: &mut Level<N, M>,
         time: Time,
         state: State<N>,
     ) -> Option<State<N>> {
         let strays = self.scheme.corrects_level() && level.strays(flow, time, &state);
-        strays.then(|| level.reached(flow, time, state, true))
+        strays.then(|| put_back(flow, level, time, state)).flatten()
     }
 
     /// Serves the output times up to `end`, the end of a step.
@@ -415,6 +436,20 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> March<F, N, M> {
             self.streak = 0;
         }
     }
+}
+
+/// The state on its level, if it has left that by the size of ψ's terms at present too.
+#[cold]
+#[inline(never)]
+fn put_back<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    level: &mut Level<N, M>,
+    time: Time,
+    state: State<N>,
+) -> Option<State<N>> {
+    level.rescale(flow, time.value, &state);
+    let strays = level.strays(flow, time, &state);
+    strays.then(|| level.reached(flow, time, state, true))
 }
 
 /// The interfaces that bound the region of a flow, with its sides.

@@ -1,5 +1,5 @@
 //! A test for every system: crossings and states against the exact solution, at two step sizes,
-//! so that the order of both is seen, and by Taylor's method at several tolerances.
+//! so that the order of both is seen, and by Taylor's method and the best one at several tolerances.
 
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ const RATIO: std::ops::Range<f64> = 3.8..4.2;
 /// Below this an error is rounding, and so is its ratio.
 const ROUNDING: f64 = 1e-11;
 
-/// Of Taylor's method.
+/// Of Taylor's method and the best one.
 const TOLERANCES: [f64; 4] = [1e-4, 1e-8, 1e-12, 1e-15];
 /// The errors of a few hundred steps, and what the flows make of them until the end.
 const GROWTH: f64 = 1e3;
@@ -102,16 +102,23 @@ fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
         let (coarse, fine) = (distance(coarse, exact), distance(fine, exact));
         assert_order_two(coarse, fine, &format!("{name}: state at {t}"));
     }
-    for tolerance in TOLERANCES {
-        assert_reaches(problem, tolerance, &times, exact);
+    for method in [Method::Taylor, Method::Best] {
+        for tolerance in TOLERANCES {
+            assert_reaches(problem, (method, tolerance), &times, exact);
+        }
     }
 }
 
 /// As many crossings, into the same regions, their times and the states with errors of about
-/// the tolerance of Taylor's method.
-fn assert_reaches(problem: &dyn Problem, tolerance: f64, times: &[f64], exact: &Exact) {
-    let name = problem.card().name;
-    let solution = solve(problem, Method::Taylor, tolerance, times);
+/// the tolerance of a method.
+fn assert_reaches(
+    problem: &dyn Problem,
+    (method, tolerance): (Method, f64),
+    times: &[f64],
+    exact: &Exact,
+) {
+    let name = format!("{}, {}", problem.card().name, method.name());
+    let solution = solve(problem, method, tolerance, times);
     let largest = GROWTH * tolerance;
     assert_eq!(
         solution.crossings.len(),
