@@ -24,10 +24,11 @@ use dmm_problems::registry;
 use serde::{Deserialize, Serialize};
 
 /// What is measured: a scheme and, if it takes one, its tolerance.
-const MEASURED: [(Method, Option<f64>); 3] = [
+const MEASURED: [(Method, Option<f64>); 4] = [
     (Method::Symmetric, None),
     (Method::Taylor, Some(1e-6)),
     (Method::Taylor, Some(1e-12)),
+    (Method::Best, Some(1e-12)),
 ];
 /// More instructions than recorded by this part are a slowdown.
 const ALLOWED: f64 = 0.03;

@@ -11,12 +11,13 @@
 //! `CONTROL` is `step=1e-3` or `tolerance=1e-9`; `FILE` is a CSV file with a run a row, whose
 //! columns are states and parameters. What cannot be answered is `{"error": "…"}`. A run starts
 //! from the problem's initial value, and what is timed is all of it: nothing is kept from one to
-//! the next.
+//! the next. Seconds are of the thread's processor time, which other work on the machine
+//! lengthens little.
 
 use std::error::Error;
 use std::io::{BufRead, Write};
-use std::time::Instant;
 
+use cpu_time::ThreadTime;
 use dmm_compiler::algebra::{Id, to_text};
 use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::model::{Model, Sign};
@@ -97,7 +98,7 @@ fn timed(problem: &dyn Problem, run: &Run, repeats: usize) -> Result<Value, Box<
     let mut seconds = Vec::with_capacity(repeats);
     let mut finish = None;
     for _ in 0..repeats.max(1) {
-        let start = Instant::now();
+        let start = ThreadTime::now();
         let finished = std::hint::black_box(problem.integrate_silently(run)?);
         seconds.push(start.elapsed().as_secs_f64());
         finish = Some(finished);
@@ -143,7 +144,7 @@ fn ensemble(members: &[Member], repeats: usize) -> Result<Value, Box<dyn Error>>
     let mut seconds = Vec::with_capacity(repeats);
     let mut states = Vec::new();
     for _ in 0..repeats.max(1) {
-        let start = Instant::now();
+        let start = ThreadTime::now();
         states = members
             .iter()
             .map(|Member { problem, run }| Ok(problem.integrate_silently(run)?.x))

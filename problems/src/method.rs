@@ -115,7 +115,7 @@ methods! {
         Composed8, "composed-8", order(8), |run| Composed::<8>::step_size(run.step_size).level_correction(run.level_correction);
         /// Taylor's method of high order, steps by a tolerance
         Taylor, "taylor", TOLERANCE, |run| Taylor::tolerance(run.tolerance).level_correction(run.level_correction);
-        /// the exact flow of regions that have one, else taylor
+        /// the exact flow where the field is affine, elsewhere Taylor's method
         Best, "best", TOLERANCE, |run| Best::tolerance(run.tolerance).level_correction(run.level_correction);
     }
     for_comparison {

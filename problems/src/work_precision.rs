@@ -2,11 +2,13 @@
 //! fixed time at which the exact state is known.
 //!
 //! The runs of all settings are made in turn, round after round, so that what disturbs the
-//! machine for a while disturbs all alike. Nothing listens to them, and nothing is kept from
+//! machine for a while disturbs all alike, and what is measured is the thread's processor time.
+//! Nothing listens to them, and nothing is kept from
 //! one to the next.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use dmm_runtime::{Error, Statistics};
 use thiserror::Error as ThisError;
 
@@ -161,7 +163,7 @@ impl Goal {
         };
         while control > least {
             let run = self.run(problem, method, control);
-            let start = Instant::now();
+            let start = ThreadTime::now();
             let result = problem.integrate_silently(&run);
             let elapsed = start.elapsed();
             if let Ok(finish) = result {
@@ -190,7 +192,7 @@ impl Goal {
 
 /// Seconds of a run.
 fn turn(problem: &dyn Problem, run: &Run) -> Result<f64, Error> {
-    let start = Instant::now();
+    let start = ThreadTime::now();
     let mut runs = 0;
     while runs == 0 || start.elapsed() < SHORTEST_TURN {
         std::hint::black_box(problem.integrate_silently(run)?);

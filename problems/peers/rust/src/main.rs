@@ -8,8 +8,8 @@ mod sides;
 
 use std::error::Error;
 use std::io::{BufRead, Write};
-use std::time::Instant;
 
+use cpu_time::ThreadTime;
 use dmm_problems::problem::Card;
 use dmm_problems::systems::*;
 use dmm_runtime::System;
@@ -90,7 +90,7 @@ impl Task<'_> {
         let mut last = None;
         for _ in 0..self.repeats.max(1) {
             let sides = Sides::new(&system, &initial);
-            let start = Instant::now();
+            let start = ThreadTime::now();
             let end = match self.peer {
                 "diffsol-tsit45" => diffsol::tsit45(&sides, initial, self.t_end, self.tolerance)?,
                 "differential-equations-rkv989e" => {
