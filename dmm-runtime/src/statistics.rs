@@ -10,6 +10,8 @@ pub struct Statistics {
     pub steps: u64,
     /// Newton iterations of the steps.
     pub newton_iterations: u64,
+    /// Sweeps of the fixed-point iteration that takes the place of Newton's in short steps.
+    pub sweeps: u64,
     /// Transitions.
     pub transitions: u64,
     /// Newton iterations of the locator in time and state together.
@@ -24,6 +26,7 @@ impl AddAssign for Statistics {
     fn add_assign(&mut self, more: Self) {
         self.steps += more.steps;
         self.newton_iterations += more.newton_iterations;
+        self.sweeps += more.sweeps;
         self.transitions += more.transitions;
         self.locator_iterations += more.locator_iterations;
         self.bracketed += more.bracketed;

@@ -230,7 +230,7 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
     const AFFINE: bool = false;
 
     /// One value for each entry of [`Boundary::SIDES`]: the array `[T; SIDES.len()]`.
-    type Each<T: Copy>: AsRef<[T]> + AsMut<[T]>;
+    type Each<T: Copy>: Copy + AsRef<[T]> + AsMut<[T]>;
 
     /// The array of `value(0)`, `value(1)`, …
     fn each<T: Copy>(value: impl FnMut(usize) -> T) -> Self::Each<T>;

@@ -102,6 +102,12 @@ impl Grid {
         if k >= self.count {
             return self.end;
         }
+        self.inner_value(k)
+    }
+
+    /// t_k of a node before the last.
+    #[inline(always)]
+    pub(crate) fn inner_value(&self, k: u64) -> f64 {
         self.start + k as f64 * self.step_size
     }
 

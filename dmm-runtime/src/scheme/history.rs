@@ -1,5 +1,6 @@
 //! What the latest steps tell of the next one.
 
+use crate::scalar::Scalar;
 use crate::system::Vector;
 
 /// Increments that are remembered.
@@ -22,6 +23,12 @@ impl<const N: usize> History<N> {
         }
     }
 
+    /// Whether predictions are as good as they become.
+    #[inline]
+    pub(super) fn is_full(&self) -> bool {
+        self.known == LENGTH
+    }
+
     /// The one that continues them: on the polynomial through the latest.
     #[inline]
     pub(super) fn predict(&self) -> Option<Vector<f64, N>> {
@@ -33,8 +40,11 @@ impl<const N: usize> History<N> {
             3 => Some((a - b) * 3.0 + c),
             4 => Some((a + c) * 4.0 - b * 6.0 - d),
             5 => Some((a - d) * 5.0 - (b - c) * 10.0 + e),
-            // the latest last: it is what there is to wait for
-            _ => Some(((c * 20.0 - (b + d) * 15.0) + (e * 6.0 - f)) + a * 6.0),
+            _ => {
+                let earlier = (c * 20.0 - (b + d) * 15.0) + (e * 6.0 - f);
+                // the latest last: it is what there is to wait for
+                Some(a.zip_map(&earlier, |a, earlier| a.fused(6.0, earlier)))
+            }
         }
     }
 

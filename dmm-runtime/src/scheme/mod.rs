@@ -11,6 +11,7 @@ mod drive;
 mod history;
 mod newton;
 mod propagator;
+mod sweep;
 mod symmetric;
 mod taylor;
 

@@ -34,7 +34,7 @@ impl<F, const N: usize> Step<'_, F, N> {
 
     /// F(d) and I − τ ∂f^τ/∂x₁.
     #[inline]
-    fn residual<const M: usize>(
+    pub(super) fn residual<const M: usize>(
         &self,
         increment: &Vector<f64, N>,
     ) -> (Vector<f64, N>, Matrix<f64, N, N>)
@@ -101,9 +101,24 @@ impl<F, const N: usize> Step<'_, F, N> {
         self.solve_damped::<M>(statistics)
     }
 
+    /// The increment of one sweep of the fixed-point iteration.
+    #[inline(always)]
+    pub(super) fn sweep<const M: usize>(&self, increment: &Vector<f64, N>) -> Vector<f64, N>
+    where
+        F: Flow<f64, N, M>,
+    {
+        let x1 = self.x0 + increment;
+        let t1 = self.t0 + self.tau;
+        self.flow.discrete_vector_field(self.t0, self.x0, t1, &x1) * self.tau
+    }
+
     /// Whether the error that `correction` leaves is below rounding.
     #[inline]
-    fn is_converged(&self, increment: &Vector<f64, N>, correction: &Vector<f64, N>) -> bool {
+    pub(super) fn is_converged(
+        &self,
+        increment: &Vector<f64, N>,
+        correction: &Vector<f64, N>,
+    ) -> bool {
         (0..N).all(|i| {
             let scale = increment[i].abs() + SHARE_OF_STATE * self.x0[i].abs();
             correction[i].abs() <= CONVERGED * scale

@@ -1,8 +1,10 @@
 //! The symmetric scheme of order 2.
 
 use crate::error::StepFailure;
+use crate::linear::solve;
 use crate::scheme::history::History;
 use crate::scheme::propagator::{Propagator, propagate};
+use crate::scheme::sweep::{MOST, Sweeps};
 use crate::scheme::{Correction, OneStep, Step};
 use crate::statistics::Statistics;
 use crate::system::{Flow, Solvability, Vector};
@@ -60,8 +62,108 @@ impl Symmetric {
 pub struct Memory<const N: usize> {
     /// Increments of full steps.
     increments: History<N>,
+    sweeps: Sweeps<N>,
     /// Of a linear flow.
     propagator: Option<Propagator<N>>,
+}
+
+impl<const N: usize> Memory<N> {
+    /// The increment of a full step of a nonlinear flow: by sweeps, where they are enough.
+    ///
+    /// Nothing that sweeps work with is lent to a function that is not inlined, so that it stays
+    /// in registers.
+    #[inline(always)]
+    fn advance<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        step: &Step<'_, F, N>,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure> {
+        let predicted = self.increments.predict();
+        let mut increment = predicted.unwrap_or_else(|| step.euler());
+        let looks = self.sweeps.is_due(self.increments.is_full());
+        if !looks && self.sweeps.enough {
+            for _ in 0..MOST {
+                let before = increment;
+                increment = step.sweep(&before);
+                statistics.sweeps += 1;
+                if self.sweeps.is_last(&(increment - before)) {
+                    return Ok(increment);
+                }
+            }
+        }
+        let Step { flow, t0, x0, tau } = *step;
+        let start = (t0, *x0, tau);
+        let mut solved = increment;
+        let failure = match looks {
+            false => newton(flow, start, &mut solved, statistics),
+            true => {
+                let mut sweeps = Sweeps::new();
+                let failure = newton_and_look(flow, start, &mut solved, &mut sweeps, statistics);
+                // until predictions are as good as they become, the next step looks again
+                if self.increments.is_full() {
+                    self.sweeps = sweeps;
+                }
+                failure
+            }
+        };
+        match failure {
+            None => Ok(solved),
+            Some(failure) => Err(failure),
+        }
+    }
+}
+
+/// Takes the increment of a step from (t₀, x₀) over τ from a prediction to the solution, by
+/// Newton's method.
+#[inline(never)]
+fn newton<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    (t0, x0, tau): (f64, Vector<f64, N>, f64),
+    increment: &mut Vector<f64, N>,
+    statistics: &mut Statistics,
+) -> Option<StepFailure> {
+    let step = Step {
+        flow,
+        t0,
+        x0: &x0,
+        tau,
+    };
+    match step.solve::<M>(*increment, statistics) {
+        Ok(solved) => {
+            *increment = solved;
+            None
+        }
+        Err(failure) => Some(failure),
+    }
+}
+
+/// The same, with a decision on the sweeps of the steps that follow.
+#[inline(never)]
+fn newton_and_look<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    (t0, x0, tau): (f64, Vector<f64, N>, f64),
+    increment: &mut Vector<f64, N>,
+    sweeps: &mut Sweeps<N>,
+    statistics: &mut Statistics,
+) -> Option<StepFailure> {
+    let step = Step {
+        flow,
+        t0,
+        x0: &x0,
+        tau,
+    };
+    let (residual, matrix) = step.residual::<M>(increment);
+    let correction = solve(&matrix, &residual);
+    statistics.newton_iterations += 1;
+    *sweeps = Sweeps::new();
+    if let Some(correction) = correction {
+        *increment -= correction;
+        *sweeps = Sweeps::decide(&matrix, &correction, increment, &x0);
+        if step.is_converged(increment, &correction) {
+            return None;
+        }
+    }
+    newton(flow, (t0, x0, tau), increment, statistics)
 }
 
 impl OneStep for Symmetric {
@@ -83,6 +185,7 @@ impl OneStep for Symmetric {
     ) -> Memory<N> {
         Memory {
             increments: History::new(),
+            sweeps: Sweeps::new(),
             propagator: match F::SOLVABILITY {
                 Solvability::Linear => Propagator::new(flow, self.step_size),
                 Solvability::Affine | Solvability::Nonlinear => None,
@@ -103,9 +206,7 @@ impl OneStep for Symmetric {
             Solvability::Linear => propagate(memory.propagator.as_ref(), step.x0),
             Solvability::Affine => self.step(step, statistics),
             Solvability::Nonlinear => {
-                let predicted = memory.increments.predict();
-                let predicted = predicted.unwrap_or_else(|| step.euler());
-                let increment = step.increment::<M>(predicted, statistics)?;
+                let increment = memory.advance::<M, F>(step, statistics)?;
                 memory.increments.remember(increment);
                 Ok(increment)
             }

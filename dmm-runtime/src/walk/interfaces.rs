@@ -15,6 +15,10 @@ use crate::walk::{SegmentEnd, Walk};
 pub(super) type Watches<F, const N: usize, const M: usize> =
     <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Each<Watch>;
 
+/// A reading of each interface that bounds the region of a flow.
+pub(super) type Readings<F, const N: usize, const M: usize> =
+    <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Each<f64>;
+
 /// The crossing of a step that comes first.
 struct First<const N: usize> {
     interface: usize,
@@ -28,39 +32,42 @@ pub(super) fn watches<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     x: &Vector<f64, N>,
     fresh: Option<usize>,
 ) -> Watches<F, N, M> {
-    let sides = sides::<N, M, F>();
+    let readings = readings::<N, M, F>(flow, t, x);
     <F::Boundary as Boundary<f64, N>>::each(|i| {
-        let (interface, side) = sides[i];
-        let value = flow.boundary().switching_function(interface, t, x);
-        Watch::new(side.sign() * value, fresh == Some(interface))
+        let (interface, _) = sides::<N, M, F>()[i];
+        Watch::new(readings.as_ref()[i], fresh == Some(interface))
     })
 }
 
-/// Whether a step that ends at (t, x) needs a closer look at an interface.
+/// g of each interface at (t, x), positive in the region.
 #[inline]
-pub(super) fn is_near<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+pub(super) fn readings<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     flow: &F,
-    watches: &mut Watches<F, N, M>,
     t: f64,
     x: &Vector<f64, N>,
-) -> bool {
+) -> Readings<F, N, M> {
+    let sides = sides::<N, M, F>();
+    <F::Boundary as Boundary<f64, N>>::each(|i| {
+        let (interface, side) = sides[i];
+        side.sign() * flow.boundary().switching_function(interface, t, x)
+    })
+}
+
+/// Whether a step that ends with these readings needs a closer look at an interface.
+#[inline]
+pub(super) fn is_near(watches: &impl AsRef<[Watch]>, readings: &impl AsRef<[f64]>) -> bool {
     let mut near = false;
-    for (watch, &(interface, side)) in watches.as_mut().iter().zip(sides::<N, M, F>()) {
-        near |= watch.is_near(side.sign() * flow.boundary().switching_function(interface, t, x));
+    for (watch, &value) in watches.as_ref().iter().zip(readings.as_ref()) {
+        near |= watch.is_near(value);
     }
     near
 }
 
-/// Moves the watches on to a step that starts at (t, x).
+/// Moves the watches on to a step that starts with these readings.
 #[inline]
-pub(super) fn advance<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
-    watches: &mut Watches<F, N, M>,
-    t: f64,
-    x: &Vector<f64, N>,
-) {
-    for (watch, &(interface, side)) in watches.as_mut().iter_mut().zip(sides::<N, M, F>()) {
-        watch.advance(side.sign() * flow.boundary().switching_function(interface, t, x));
+pub(super) fn advance(watches: &mut impl AsMut<[Watch]>, readings: &impl AsRef<[f64]>) {
+    for (watch, &value) in watches.as_mut().iter_mut().zip(readings.as_ref()) {
+        watch.advance(value);
     }
 }
 

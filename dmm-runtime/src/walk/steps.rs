@@ -10,7 +10,7 @@ use crate::statistics::Statistics;
 use crate::system::{Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
-use crate::walk::interfaces::{Watches, advance, is_near, watches};
+use crate::walk::interfaces::{Watches, advance, is_near, readings, watches};
 use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between adaptions of the level's correction to the size of the state.
@@ -57,13 +57,14 @@ where
         let mut counts = Statistics::default();
         let mut state = self.state;
         let mut node = self.progress.node;
+        let mut watching = *watches;
         // the last state known to be finite, where not every one is checked
         let mut finite = (state, node);
         let end = loop {
             if node >= grid.count {
                 break Ok(None);
             }
-            let (t0, t1) = (grid.value(node - 1), grid.value(node));
+            let (t0, t1) = (grid.inner_value(node - 1), grid.inner_value(node));
             // telescoping sums need the very times that ψ(t, x) is evaluated at
             let tau = if F::AUTONOMOUS {
                 grid.step_size
@@ -86,28 +87,26 @@ where
                 (state, node) = if Obs::LISTENS { (state, node) } else { finite };
                 break Err(StepFailure::NotFinite);
             }
-            let near = is_near(flow, watches, t1, &next.x);
+            let mut values = readings::<N, M, F>(flow, t1, &next.x);
+            let near = is_near(&watching, &values);
             if near || self.observer.next_output().is_some_and(|t| t <= t1) {
                 self.settle::<M, F>(state, node, &mut counts);
+                *watches = watching;
+                let increment = increment;
                 if near && let Some(end) = self.look(flow, level, watches, tau, &increment)? {
                     return Ok(Some(end));
                 }
                 self.outputs(flow, tau, self.node_time::<M, F>(node))?;
             }
             if node.is_multiple_of(Sch::CORRECTION_INTERVAL) {
-                next = next.normalised();
-                if corrects_level {
-                    if node.is_multiple_of(RESCALING) {
-                        level.rescale(flow, t1, &next);
-                    }
-                    // into x at once: left in the remainder, which the flow does not turn, it
-                    // would later be taken off along a Λ that has turned away
-                    next.remainder += level.correction(flow, Time::new(t1), &next);
-                    next = next.normalised();
-                }
+                next = match corrects_level {
+                    true => on_level(flow, level, next, t1, node.is_multiple_of(RESCALING)),
+                    false => next.normalised(),
+                };
                 finite = (next, node + 1);
+                values = readings::<N, M, F>(flow, t1, &next.x);
             }
-            advance(flow, watches, t1, &next.x);
+            advance(&mut watching, &values);
             state = next;
             node += 1;
             counts.steps += 1;
@@ -122,6 +121,7 @@ where
             }
         };
         self.settle::<M, F>(state, node, &mut counts);
+        *watches = watching;
         end.map_err(|failure| self.failure(failure, grid.step_size))
     }
 
@@ -154,7 +154,8 @@ where
             }
             self.outputs(flow, tau, end)?;
             self.accept(flow, level, &increment, tau, end)?;
-            advance(flow, watches, end.value, &self.state.x);
+            let values = readings::<N, M, F>(flow, end.value, &self.state.x);
+            advance(watches, &values);
             if self.tell_point().is_break() {
                 return Ok(Some(SegmentEnd::Stopped));
             }
@@ -245,4 +246,23 @@ where
         }
         Ok(())
     }
+}
+
+/// A state put back on its level.
+#[inline(never)]
+fn on_level<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    level: &mut Level<N, M>,
+    state: State<N>,
+    t: f64,
+    rescales: bool,
+) -> State<N> {
+    let mut state = state.normalised();
+    if rescales {
+        level.rescale(flow, t, &state);
+    }
+    // into x at once: left in the remainder, which the flow does not turn, it would later be
+    // taken off along a Λ that has turned away
+    state.remainder += level.correction(flow, Time::new(t), &state);
+    state.normalised()
 }
