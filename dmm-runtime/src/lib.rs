@@ -77,7 +77,7 @@ pub use observer::{Observer, Point, Transition};
 pub use recording::Recording;
 pub use scalar::Scalar;
 pub use scheme::{
-    Best, Composed, Composition, Correction, OneStep, Scheme, Step, Symmetric, Taylor,
+    Adaptive, Best, Composed, Composition, Correction, OneStep, Scheme, Step, Symmetric, Taylor,
 };
 pub use solution::{Interrupted, Solution};
 pub use state::State;

@@ -8,6 +8,8 @@ use std::ops::AddAssign;
 pub struct Statistics {
     /// Steps accepted, partial steps to and from an interface included.
     pub steps: u64,
+    /// Steps that a tolerance made shorter, because they could not be made or were too long.
+    pub rejected: u64,
     /// Newton iterations of the steps.
     pub newton_iterations: u64,
     /// Sweeps of the fixed-point iteration that takes the place of Newton's in short steps.
@@ -25,6 +27,7 @@ pub struct Statistics {
 impl AddAssign for Statistics {
     fn add_assign(&mut self, more: Self) {
         self.steps += more.steps;
+        self.rejected += more.rejected;
         self.newton_iterations += more.newton_iterations;
         self.sweeps += more.sweeps;
         self.transitions += more.transitions;

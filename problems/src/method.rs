@@ -113,6 +113,10 @@ methods! {
         Composed6, "composed-6", order(6), |run| Composed::<6>::step_size(run.step_size).level_correction(run.level_correction);
         /// its composition of order 8, uniform steps
         Composed8, "composed-8", order(8), |run| Composed::<8>::step_size(run.step_size).level_correction(run.level_correction);
+        /// order 2, steps by a tolerance
+        SymmetricAdaptive, "symmetric", TOLERANCE, |run| Symmetric::tolerance(run.tolerance).level_correction(run.level_correction);
+        /// composition of order 8, steps by a tolerance
+        Composed8Adaptive, "composed-8", TOLERANCE, |run| Composed::<8>::tolerance(run.tolerance).level_correction(run.level_correction);
         /// Taylor's method of high order, steps by a tolerance
         Taylor, "taylor", TOLERANCE, |run| Taylor::tolerance(run.tolerance).level_correction(run.level_correction);
         /// the exact flow where the field is affine, elsewhere Taylor's method

@@ -28,6 +28,8 @@ fn increment<const N: usize, const M: usize, F: Flow<f64, N, M>>(
 impl OneStep for ExplicitMidpoint {
     type Memory<const N: usize> = ();
 
+    const ORDER: usize = 2;
+
     fn step_size(&self) -> f64 {
         self.step_size
     }

@@ -4,6 +4,8 @@
 //! it is 4 if Σγ = 1 and Σγ³ = 0, and 6 and 8 with Σγ⁵ = 0, Σγ⁷ = 0 and conditions on nested
 //! sums (Hairer, Lubich & Wanner, Geometric Numerical Integration, sections V.3.1–V.3.2).
 
+#![allow(clippy::excessive_precision, reason = "the digits of the sources")]
+
 use std::fmt::Debug;
 
 use super::Composed;

@@ -48,6 +48,37 @@ pub trait Drive: Clone {
         F: Flow<f64, N, M>;
 }
 
+/// A scheme that moves by a one-step map, in steps of one size or of several.
+pub trait Maps: Drive {
+    /// The map.
+    type Map: OneStep;
+
+    /// The map.
+    fn map(&self) -> &Self::Map;
+
+    /// The size of the present steps, of which one may be a part.
+    fn typical_step(&self, progress: &Self::Progress) -> f64;
+
+    /// Notes that the walk has left the steps' ends, for a transition at `t`.
+    fn leave(progress: &mut Self::Progress, t: f64);
+}
+
+impl<Sch: OneStep> Maps for Sch {
+    type Map = Sch;
+
+    fn map(&self) -> &Sch {
+        self
+    }
+
+    fn typical_step(&self, progress: &Uniform) -> f64 {
+        progress.grid.step_size
+    }
+
+    fn leave(progress: &mut Uniform, _t: f64) {
+        progress.at_node = false;
+    }
+}
+
 /// A step that could not be made.
 #[derive(Clone, Copy, Debug)]
 pub struct Stuck<const N: usize> {

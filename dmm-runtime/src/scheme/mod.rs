@@ -4,21 +4,25 @@
 //! the flow's discrete vector field. Regions, transitions, levels, output and time are the
 //! integrator's, the same for every scheme (Hirani, Wan & Wojtalewicz, Algorithm 2.1).
 
+mod adaptive;
 mod best;
 mod composed;
 mod compositions;
 mod drive;
 mod history;
 mod newton;
+mod pace;
 mod propagator;
 mod sweep;
 mod symmetric;
 mod taylor;
 
+pub use adaptive::Adaptive;
 pub use best::Best;
 pub use composed::Composed;
 pub use compositions::Composition;
-pub(crate) use drive::{Drive, Stuck};
+pub(crate) use drive::{Drive, Maps, Stuck};
+pub(crate) use pace::Pacer;
 pub use symmetric::Symmetric;
 pub use taylor::Taylor;
 
@@ -39,13 +43,13 @@ pub struct Step<'a, F, const N: usize> {
     pub tau: f64,
 }
 
-/// What an [`Integrator`](crate::Integrator) integrates by: a [`OneStep`] scheme with uniform
-/// steps such as [`Symmetric`], or [`Taylor`].
+/// What an [`Integrator`](crate::Integrator) integrates by: a [`OneStep`] scheme such as
+/// [`Symmetric`], with uniform steps or [`Adaptive`] ones, [`Taylor`] or [`Best`].
 pub trait Scheme: Drive {}
 
 impl<Sch: Drive> Scheme for Sch {}
 
-/// A one-step scheme with uniform steps.
+/// A one-step scheme.
 ///
 /// The scheme is asked for increments d = x₁ − x₀ rather than for x₁, so that they keep their
 /// relative accuracy however small the step.
@@ -53,11 +57,14 @@ pub trait OneStep: Clone {
     /// What is remembered from step to step within a segment.
     type Memory<const N: usize>: Clone;
 
+    /// The order p of accuracy.
+    const ORDER: usize;
+
     /// Full steps between corrections of the level, and of the renormalisation of the state's
     /// remainder; at most 256.
     const CORRECTION_INTERVAL: u64 = 32;
 
-    /// The step size τ.
+    /// The step size τ of uniform steps.
     fn step_size(&self) -> f64;
 
     /// Whether the state is corrected towards the level of the conserved quantities.
@@ -78,6 +85,21 @@ pub trait OneStep: Clone {
     /// If the implicit equation has no solution or a formula no finite value.
     #[inline]
     fn full_step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        step: &Step<'_, F, N>,
+        _memory: &mut Self::Memory<N>,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure> {
+        self.step(step, statistics)
+    }
+
+    /// The increment of one of many steps whose size varies slowly, in the segment of `memory`.
+    /// By default the same as of any other step.
+    ///
+    /// # Errors
+    /// If the implicit equation has no solution or a formula no finite value.
+    #[inline]
+    fn varied_step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
         &self,
         step: &Step<'_, F, N>,
         _memory: &mut Self::Memory<N>,

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
-use crate::scheme::OneStep;
+use crate::scheme::Maps;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::transition::watch::{Outcome, Watch};
 use crate::transition::{Crossing, Located, Locator, rate};
@@ -80,7 +80,7 @@ fn sides<const N: usize, const M: usize, F: Flow<f64, N, M>>() -> &'static [(usi
 impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
 where
     Sys: System<N>,
-    Sch: OneStep,
+    Sch: Maps,
     Loc: Locator,
     Obs: Observer<Sys::Region, N>,
 {
@@ -121,14 +121,14 @@ where
         increment: &Vector<f64, N>,
     ) -> Result<Option<First<N>>, Error> {
         let mut crossing = Crossing {
-            scheme: self.scheme,
+            scheme: self.scheme.map(),
             flow,
             interface,
             t0: self.time.value,
             state: &self.state,
             lower: 0.0,
             upper: tau,
-            step_size: self.progress.grid.step_size,
+            step_size: self.scheme.typical_step(&self.progress),
             sign,
         };
         let located = match watch.examine(&crossing, increment, &mut self.statistics) {
@@ -165,7 +165,7 @@ where
         let time = self.time.after(located.elapsed);
         self.outputs(flow, located.elapsed, time)?;
         self.accept(flow, level, &located.increment, located.elapsed, time)?;
-        self.progress.at_node = false;
+        Sch::leave(&mut self.progress, time.value);
         if self.tell_point().is_break() {
             return Ok(SegmentEnd::Stopped);
         }

@@ -4,6 +4,7 @@
 //! that the loop over steps is compiled for that flow; for a smooth system the look at
 //! interfaces is compiled away.
 
+mod adapt;
 mod arrive;
 mod expand;
 mod glance;

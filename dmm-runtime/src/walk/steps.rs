@@ -4,7 +4,7 @@ use crate::error::{Error, StepFailure};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
-use crate::scheme::{OneStep, Step};
+use crate::scheme::{Maps, OneStep, Step};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{Flow, System, Vector};
@@ -189,7 +189,15 @@ where
             Time::new(self.progress.grid.value(node))
         }
     }
+}
 
+impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
+where
+    Sys: System<N>,
+    Sch: Maps,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
     /// Moves over `increment` to `time`, corrected towards the level.
     pub(super) fn accept<const M: usize, F: Flow<f64, N, M>>(
         &mut self,
@@ -203,7 +211,7 @@ where
         if !is_finite(&state.x) {
             return Err(self.failure(StepFailure::NotFinite, tau));
         }
-        if self.scheme.corrects_level() {
+        if self.scheme.map().corrects_level() {
             state.remainder += level.correction(flow, time, &state);
         }
         self.state = state.normalised();
@@ -232,6 +240,7 @@ where
             let increment = match elapsed > 0.0 {
                 true => self
                     .scheme
+                    .map()
                     .step(&step, &mut Statistics::default())
                     .map_err(|failure| self.failure(failure, elapsed))?,
                 false => Vector::zeros(),

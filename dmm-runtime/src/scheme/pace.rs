@@ -1,0 +1,80 @@
+//! How fast steps may go: the rate 1/τ that a tolerance asks for at a point.
+//!
+//! With the Taylor coefficients cₖ of the solution there, of which the compiler makes
+//! recurrences, and ‖c‖ measured against the size of each component, a step of order p over τ
+//! leaves about ‖c_{p+1}‖ τ^{p+1}. The root test ‖cₖ‖^{1/k} is taken as the mean over k = p and
+//! p + 1, so that it does not vanish with one coefficient:
+//!
+//! τ⁻² = (‖c_p‖^{2/p} + ‖c_{p+1}‖^{2/(p+1)})/2 · tol^{−2/(p+1)}.
+
+use crate::system::{Flow, Vector};
+
+/// Coefficients: enough for order 8.
+const COEFFICIENTS: usize = 10;
+
+/// A tolerance, for a scheme of order p.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pacer<const N: usize> {
+    order: usize,
+    /// tol^{−1/(p+1)}
+    factor: f64,
+    /// The largest size of each component so far.
+    size: Vector<f64, N>,
+}
+
+impl<const N: usize> Pacer<N> {
+    /// At the start of a run.
+    pub(crate) fn new(order: usize, tolerance: f64) -> Self {
+        Self {
+            order,
+            factor: tolerance.powf(-1.0 / (order + 1) as f64),
+            size: Vector::zeros(),
+        }
+    }
+
+    /// The rate that is asked for at (t, x); not finite where the field is not.
+    pub(crate) fn rate<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        t: f64,
+        x: &Vector<f64, N>,
+    ) -> f64 {
+        let p = self.order;
+        let mut series = F::series::<COEFFICIENTS>();
+        for (component, &x) in series.as_mut().iter_mut().zip(x) {
+            component[0] = x;
+        }
+        for k in 0..=p {
+            flow.advance(k, t, &mut series);
+        }
+        let c = &series.as_ref()[..N];
+        self.grow(c);
+        let sum: f64 = [p, p + 1]
+            .iter()
+            .map(|&k| {
+                let parts = c.iter().zip(&self.size).map(|(c, size)| c[k] / size);
+                let square: f64 = parts.map(|part| part * part).sum();
+                square.powf(1.0 / k as f64)
+            })
+            .sum();
+        (0.5 * sum).sqrt() * self.factor
+    }
+
+    /// Lets sizes grow with the components; one that begins at zero is as large as its slope
+    /// makes it within the time in which the whole state changes.
+    fn grow(&mut self, c: &[[f64; COEFFICIENTS]]) {
+        let largest = |k: usize| c.iter().fold(0.0f64, |largest, c| largest.max(c[k].abs()));
+        let begins = self.size.iter().any(|&size| size == 0.0);
+        let time = match begins && largest(1) > 0.0 {
+            true => largest(0) / largest(1),
+            false => 0.0,
+        };
+        for (size, c) in self.size.iter_mut().zip(c) {
+            let now = match *size == 0.0 {
+                true => c[0].abs() + c[1].abs() * time,
+                false => c[0].abs(),
+            };
+            *size = size.max(now).max(f64::MIN_POSITIVE);
+        }
+    }
+}
