@@ -92,8 +92,9 @@ where
             if near || self.observer.next_output().is_some_and(|t| t <= t1) {
                 self.settle::<M, F>(state, node, &mut counts);
                 *watches = watching;
-                let increment = increment;
-                if near && let Some(end) = self.look(flow, level, watches, tau, &increment)? {
+                // a copy is lent, so that the loop's own stays in registers
+                let lent = increment;
+                if near && let Some(end) = self.look(flow, level, watches, tau, &lent)? {
                     return Ok(Some(end));
                 }
                 self.outputs(flow, tau, self.node_time::<M, F>(node))?;
