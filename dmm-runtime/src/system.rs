@@ -57,6 +57,14 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// Calls `visitor` with the flow of `region`, monomorphised for it.
     fn visit<V: FlowVisitor<N>>(&self, region: Self::Region, visitor: V) -> V::Output;
 
+    /// The same with parameters of any scalar, in the order of [`System::PARAMETERS`]: those of
+    /// several systems at once, for example.
+    fn visit_with<S: Scalar, V: FlowVisitor<N, S>>(
+        region: Self::Region,
+        parameter: impl Fn(usize) -> S,
+        visitor: V,
+    ) -> V::Output;
+
     /// ψ(t, x), the quantities that are conserved in `region`, in the order of
     /// [`System::conserved_names`]. The point need not lie in the region.
     ///
@@ -117,12 +125,12 @@ impl Side {
 }
 
 /// What is to be done with the flow of a region; see [`System::visit`].
-pub trait FlowVisitor<const N: usize> {
+pub trait FlowVisitor<const N: usize, S: Scalar = f64> {
     /// The result.
     type Output;
 
     /// Does it, for a flow with M conserved quantities.
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output;
+    fn visit<const M: usize, F: Flow<S, N, M>>(self, flow: &F) -> Self::Output;
 }
 
 /// How the discrete vector field depends on the state at the later end of a step.

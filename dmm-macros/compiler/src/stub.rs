@@ -103,6 +103,16 @@ fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenS
             ) -> Visitor::Output {
                 ::core::unreachable!("the declaration of this system has errors")
             }
+            fn visit_with<
+                Scalar: ::dmm_runtime::support::Scalar,
+                Visitor: ::dmm_runtime::support::FlowVisitor<#count, Scalar>,
+            >(
+                _: #region,
+                _: impl ::core::ops::Fn(usize) -> Scalar,
+                _: Visitor,
+            ) -> Visitor::Output {
+                ::core::unreachable!("the declaration of this system has errors")
+            }
         }
     }
 }

@@ -85,13 +85,12 @@ pub(super) fn boundary(
     };
     let scalar = &emission.scalar;
     let fields = store.fields(lowered, scalar);
-    let (statements, values) =
-        store.constructor(lowered, scalar, &|parameter| emission.field_of(parameter));
+    let (statements, values) = store.constructor(lowered, scalar, &emission.parameters);
     let constructor = constructor_impl(
         scalar,
         &quote!(const REGION: usize, const COUNT: usize),
         &quote!(#name<#scalar, REGION, COUNT>),
-        &emission.scheme.model.name,
+        emission.parameters.len(),
         &statements,
         &values,
     );

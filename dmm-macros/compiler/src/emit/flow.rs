@@ -39,14 +39,13 @@ pub(super) fn flow(
 fn item(emission: &Emission<'_>, region: usize, lowered: &Lowered, store: &Store) -> TokenStream {
     let (name, scalar) = (&emission.flows[region], &emission.scalar);
     let fields = store.fields(lowered, scalar);
-    let (statements, values) =
-        store.constructor(lowered, scalar, &|parameter| emission.field_of(parameter));
+    let (statements, values) = store.constructor(lowered, scalar, &emission.parameters);
     let (boundary_field, boundary_value) = match &emission.boundary {
         Some(boundary) => {
             let target = boundary_type(emission, boundary, region);
             (
                 quote!(boundary: #target,),
-                quote!(boundary: #boundary::new(system),),
+                quote!(boundary: #boundary::new(parameters),),
             )
         }
         None => (TokenStream::new(), TokenStream::new()),
@@ -58,7 +57,7 @@ fn item(emission: &Emission<'_>, region: usize, lowered: &Lowered, store: &Store
         scalar,
         &TokenStream::new(),
         &quote!(#name<#scalar>),
-        &emission.scheme.model.name,
+        emission.parameters.len(),
         &statements,
         &quote!(#boundary_value #values),
     );

@@ -77,25 +77,27 @@ impl Store {
         }
     }
 
-    /// The statements and field values of the constructor `new(system: &System)`.
+    /// The statements and field values of the constructor `new(parameters)`; `parameters` are
+    /// all that the system has.
     pub(super) fn constructor(
         &self,
         lowered: &Lowered,
         scalar: &Ident,
-        field_of: &dyn Fn(&str) -> Option<TokenStream>,
+        parameters: &[Name],
     ) -> (TokenStream, TokenStream) {
         let roots: Vec<Id> = self.computed.keys().copied().collect();
-        let mut names = Names::reserving(["self", "system"]);
+        let mut names = Names::reserving(["self", "parameters"]);
         let mut known = BTreeMap::new();
         let mut statements = TokenStream::new();
         for (id, name) in variables(lowered, self.parameters.keys().chain(&roots).copied()) {
             // a bare name would be taken for a constant of that name in the user's scope
             let local = names.take(&format!("parameter_{}", plain(&name)));
             // a variable that no parameter declares cannot occur in a fixed expression
-            let Some(source) = field_of(name.as_str()) else {
+            let Some(index) = parameters.iter().position(|one| *one == name) else {
                 continue;
             };
-            statements.extend(quote!(let #local = #scalar::from_f64(system.#source);));
+            let index = paths::count(index);
+            statements.extend(quote!(let #local = parameters[#index];));
             known.insert(id, quote!(#local));
         }
         let mut block = Block::new(lowered, quote!(#scalar), names, &known, &roots);
@@ -154,16 +156,17 @@ pub(super) fn constructor_impl(
     scalar: &Ident,
     generics: &TokenStream,
     target: &TokenStream,
-    system: &Ident,
+    parameters: usize,
     statements: &TokenStream,
     values: &TokenStream,
 ) -> TokenStream {
     let bound = paths::support("Scalar");
+    let count = paths::count(parameters);
     quote! {
         #[automatically_derived]
         impl<#scalar: #bound, #generics> #target {
             #[inline]
-            fn new(system: &#system) -> Self {
+            fn new(parameters: &[#scalar; #count]) -> Self {
                 #statements
                 Self { #values }
             }

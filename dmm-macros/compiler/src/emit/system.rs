@@ -74,15 +74,6 @@ impl<'a> Emission<'a> {
         }
     }
 
-    /// The field of the system that holds a parameter: `k`, `m[0]`.
-    pub(super) fn field_of(&self, parameter: &str) -> Option<TokenStream> {
-        let parameters = &self.scheme.model.parameters;
-        parameters
-            .iter()
-            .find(|one| one.name.as_str() == parameter)
-            .map(field)
-    }
-
     /// The parameters, the elements of a group together.
     fn fields(&self) -> impl Iterator<Item = &'a [Parameter]> {
         let parameters = &self.scheme.model.parameters;
@@ -293,12 +284,13 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let model = &emission.scheme.model;
     let (name, region) = (&model.name, &emission.region);
     let (states, variants) = (paths::count(model.states.len()), &emission.variants);
-    let [system, visitor] = ["System", "FlowVisitor"].map(paths::support);
+    let [system, visitor, bound] = ["System", "FlowVisitor", "Scalar"].map(paths::support);
     let constants = constants(emission, listing);
     let by_region = by_region(emission);
     let fields: Vec<TokenStream> = model.parameters.iter().map(field).collect();
-    let indices = (0..fields.len()).map(paths::count);
-    let flows = &emission.flows;
+    let indices: Vec<_> = (0..fields.len()).map(paths::count).collect();
+    let count = paths::count(fields.len());
+    let (flows, scalar) = (&emission.flows, &emission.scalar);
     quote! {
         #[automatically_derived]
         impl #system<#states> for #name {
@@ -314,8 +306,18 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
             }
             #[inline]
             fn visit<V: #visitor<#states>>(&self, region: #region, visitor: V) -> V::Output {
+                let parameters: [f64; #count] = [#(self.#fields),*];
+                Self::visit_with::<f64, V>(region, |index| parameters[index], visitor)
+            }
+            #[inline(always)]
+            fn visit_with<#scalar: #bound, V: #visitor<#states, #scalar>>(
+                region: #region,
+                parameter: impl ::core::ops::Fn(usize) -> #scalar,
+                visitor: V,
+            ) -> V::Output {
+                let parameters: [#scalar; #count] = [#(parameter(#indices)),*];
                 match region {
-                    #(#region::#variants => visitor.visit(&#flows::<f64>::new(self)),)*
+                    #(#region::#variants => visitor.visit(&#flows::<#scalar>::new(&parameters)),)*
                 }
             }
         }
