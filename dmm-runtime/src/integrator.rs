@@ -181,7 +181,7 @@ where
     }
 
     /// The region to start in, after all input is checked.
-    fn start(&self, t_end: f64) -> Result<Start<Sys::Region>, Error> {
+    pub(crate) fn start(&self, t_end: f64) -> Result<Start<Sys::Region>, Error> {
         self.check_input(t_end)?;
         let system = self.integrator.system;
         match self.region {

@@ -13,6 +13,7 @@
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | keep some of its points only | [`Recording`] |
 //! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
+//! | integrate many initial states and parameters | [`Ensemble`] |
 //! | evaluate ψ at a point | [`System::conserved`] |
 //! | replace the search for crossings | [`Locator`] |
 //! | write a scheme | [`OneStep`], [`Flow`] |
@@ -43,9 +44,11 @@
 #![deny(missing_docs)]
 
 mod end;
+mod ensemble;
 mod error;
 mod exact;
 mod integrator;
+mod lanes;
 mod level;
 mod linear;
 mod minimal_norm;
@@ -70,6 +73,7 @@ mod walk;
 
 pub use dmm_macros::pws;
 pub use end::{End, Halted};
+pub use ensemble::{Ensemble, Member, Outcome};
 pub use error::{Error, StepFailure};
 pub use integrator::{InitialValueProblem, Integrator};
 pub use minimal_norm::MinimalNorm;

@@ -36,6 +36,12 @@ pub trait Scalar:
     /// which the target's features tell, and otherwise with two. (A library's fused operation
     /// takes several times as long as a product and a sum.)
     fn fused(self, b: Self, c: Self) -> Self;
+    /// u, where a chain of operations is so long that it is better interrupted. (Of several
+    /// scalars at once the compiler finds only ten operations or so that belong together.)
+    #[inline(always)]
+    fn settled(self) -> Self {
+        self
+    }
     /// |u|
     fn abs(self) -> Self;
     /// √u

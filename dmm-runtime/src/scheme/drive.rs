@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use crate::error::{Error, StepFailure, invalid, number};
 use crate::observer::Observer;
-use crate::scheme::{OneStep, Step};
+use crate::scheme::{OneStep, Step, Taylor};
 use crate::statistics::Statistics;
 use crate::system::{Flow, System, Vector};
 use crate::time::Grid;
@@ -12,12 +12,17 @@ use crate::transition::Locator;
 use crate::walk::{SegmentEnd, Walk};
 
 /// What the integrator asks of a scheme.
-pub trait Drive: Clone {
+pub trait Drive: Clone + Sync {
     /// What is carried from segment to segment.
     type Progress: Clone + Debug;
 
     /// Checks the settings.
     fn check(&self, t0: f64, t_end: f64) -> Result<(), Error>;
+
+    /// The scheme as one that an ensemble can integrate in lanes.
+    fn in_lanes(&self) -> Option<Taylor> {
+        None
+    }
 
     /// The beginning of a run.
     fn progress(&self, t0: f64, t_end: f64) -> Self::Progress;

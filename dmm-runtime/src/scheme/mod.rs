@@ -53,7 +53,7 @@ impl<Sch: Drive> Scheme for Sch {}
 ///
 /// The scheme is asked for increments d = x₁ − x₀ rather than for x₁, so that they keep their
 /// relative accuracy however small the step.
-pub trait OneStep: Clone {
+pub trait OneStep: Clone + Sync {
     /// What is remembered from step to step within a segment.
     type Memory<const N: usize>: Clone;
 

@@ -88,7 +88,7 @@ impl Taylor {
     }
 
     /// The part of the radius of convergence that a step takes.
-    fn fraction(&self) -> f64 {
+    pub(crate) fn fraction(&self) -> f64 {
         self.tolerance.powf(1.0 / self.order() as f64)
     }
 }
@@ -191,6 +191,10 @@ impl Drive for Taylor {
         }
         let requirement = "must lie between 2.2e-16 and 0.1";
         invalid("tolerance", number(self.tolerance), requirement)
+    }
+
+    fn in_lanes(&self) -> Option<Taylor> {
+        Some(*self)
     }
 
     fn progress(&self, t0: f64, t_end: f64) -> Progress {

@@ -116,6 +116,16 @@ pub fn derivative<S: Scalar, K: Order>(k: K, u: S) -> S {
     S::from_f64(k.get() as f64) * u
 }
 
+/// A sum before term j, in parts of so many terms.
+#[inline(always)]
+fn in_parts<S: Scalar>(j: usize, length: usize, sum: S) -> S {
+    if (j + 1).is_multiple_of(length) {
+        sum.settled()
+    } else {
+        sum
+    }
+}
+
 /// Coefficient k of uv. The newest coefficients enter last, so that the sum of the others need
 /// not wait for them.
 #[inline(always)]
@@ -128,7 +138,7 @@ pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]
         u[j].fused(v[j + 1], u[j + 1] * v[j])
     };
     for j in (0..k.div_ceil(2) - k % 2).rev() {
-        sum = u[j].fused(v[k - j], u[k - j].fused(v[j], sum));
+        sum = u[j].fused(v[k - j], u[k - j].fused(v[j], in_parts(j, 4, sum)));
     }
     sum
 }
@@ -170,7 +180,7 @@ pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
         u[k / 2] * u[k / 2 + 1]
     };
     for j in (0..k.div_ceil(2) - k % 2).rev() {
-        sum = u[j].fused(u[k - j], sum);
+        sum = u[j].fused(u[k - j], in_parts(j, 8, sum));
     }
     sum
 }
@@ -180,7 +190,7 @@ pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
 fn inner<S: Scalar, const P: usize>(k: usize, a: &[S; P], b: &[S; P]) -> S {
     let mut sum = S::from_f64(0.0);
     for j in 1..k {
-        sum = a[j].fused(b[k - j], sum);
+        sum = a[j].fused(b[k - j], in_parts(j, 8, sum));
     }
     sum
 }

@@ -40,12 +40,12 @@ pub struct Rolled;
 impl Unroll for Rolled {
     const EXACT: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn choose<C: Choice>(_order: usize, choice: C) -> C::Output {
         choice.with::<25>()
     }
 
-    #[inline]
+    #[inline(always)]
     fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
         series: &mut C,
         end: usize,
@@ -91,7 +91,7 @@ macro_rules! orders {
 impl Unroll for Straight {
     const EXACT: bool = true;
 
-    #[inline]
+    #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
         match order {
             8 => choice.with::<9>(),

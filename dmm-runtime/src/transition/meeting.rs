@@ -82,7 +82,7 @@ impl<'a, Sys: System<N>, const N: usize> Meeting<'a, Sys, N> {
 }
 
 /// The region on the other side of `interface`.
-fn neighbour<Sys: System<N>, const N: usize>(
+pub(crate) fn neighbour<Sys: System<N>, const N: usize>(
     region: Sys::Region,
     interface: usize,
 ) -> Option<Sys::Region> {

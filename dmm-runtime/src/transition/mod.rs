@@ -8,7 +8,7 @@ mod start;
 pub(crate) mod watch;
 
 pub use locate::{Crossing, Located, Locator, NewtonLocator};
-pub(crate) use meeting::Meeting;
+pub(crate) use meeting::{Meeting, neighbour};
 pub(crate) use start::{Start, check_region, find_region};
 
 use crate::system::{Boundary, Flow, Vector};

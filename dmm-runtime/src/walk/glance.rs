@@ -46,9 +46,9 @@ pub(super) struct Glimpse {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Decay {
     /// 1/φ
-    inverse: f64,
+    pub(crate) inverse: f64,
     /// 1/(1 − φ)³ − 1 − 3φ, with its margin
-    rest: f64,
+    pub(crate) rest: f64,
 }
 
 impl Decay {

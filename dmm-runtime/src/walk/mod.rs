@@ -14,7 +14,7 @@ mod run;
 mod steps;
 
 pub(crate) use glance::Decay;
-pub(crate) use run::run_segments;
+pub(crate) use run::{Crowd, enter, run_segments};
 
 use std::ops::ControlFlow;
 

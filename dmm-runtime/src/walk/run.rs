@@ -6,12 +6,48 @@
 use crate::error::Error;
 use crate::observer::{Observer, Transition};
 use crate::scheme::Scheme;
-use crate::system::System;
+use crate::state::State;
+use crate::system::{System, Vector};
+use crate::time::Time;
 use crate::transition::{Locator, Meeting};
 use crate::walk::{SegmentEnd, Walk};
 
 /// Transitions that one step may have.
 const LARGEST_TRANSITIONS_A_STEP: u64 = 1000;
+
+/// The transitions of one step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Crowd {
+    step: u64,
+    transitions: u64,
+}
+
+impl Crowd {
+    /// Counts a transition in the step with a number, of which there must not be too many.
+    pub(crate) fn count<Sys: System<N>, const N: usize>(
+        &mut self,
+        step: u64,
+        interface: usize,
+        t: f64,
+        x: &Vector<f64, N>,
+    ) -> Result<(), Error> {
+        self.transitions = if step == self.step {
+            self.transitions + 1
+        } else {
+            1
+        };
+        self.step = step;
+        if self.transitions > LARGEST_TRANSITIONS_A_STEP {
+            return Err(Error::Zeno {
+                t,
+                x: x.iter().copied().collect(),
+                interface: Sys::INTERFACES[interface],
+                limit: LARGEST_TRANSITIONS_A_STEP,
+            });
+        }
+        Ok(())
+    }
+}
 
 /// Segment after segment, until the end time or the observer's wish.
 pub(crate) fn run_segments<Sys, Sch, Loc, Obs, const N: usize>(
@@ -23,8 +59,7 @@ where
     Loc: Locator,
     Obs: Observer<Sys::Region, N>,
 {
-    let mut transitions_in_step = 0;
-    let mut step = 0;
+    let mut crowd = Crowd::default();
     loop {
         let system = walk.system;
         let (interface, rate_from) = match system.visit(walk.region, &mut *walk)? {
@@ -32,21 +67,9 @@ where
             SegmentEnd::Crossed { interface, rate } => (interface, rate),
         };
         let number = Sch::step_number(&walk.progress);
-        transitions_in_step = if number == step {
-            transitions_in_step + 1
-        } else {
-            1
-        };
-        step = number;
-        if transitions_in_step > LARGEST_TRANSITIONS_A_STEP {
-            return Err(Error::Zeno {
-                t: walk.time.value,
-                x: walk.state.x.iter().copied().collect(),
-                interface: Sys::INTERFACES[interface],
-                limit: LARGEST_TRANSITIONS_A_STEP,
-            });
-        }
-        let transition = enter(walk, interface, rate_from)?;
+        crowd.count::<Sys, N>(number, interface, walk.time.value, &walk.state.x)?;
+        let left = (walk.region, rate_from);
+        let transition = enter(system, left, interface, walk.time, &walk.state)?;
         walk.statistics.transitions += 1;
         walk.region = transition.to;
         walk.fresh = Some(interface);
@@ -56,21 +79,16 @@ where
     }
 }
 
-/// The transition at the walk's point, if the field of the region entered leads into it.
-fn enter<Sys, Sch, Loc, Obs, const N: usize>(
-    walk: &Walk<'_, Sys, Sch, Loc, Obs, N>,
+/// The transition at a point of an interface, from a region that is left at a rate, if the field
+/// of the region entered leads into it.
+pub(crate) fn enter<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    (from, rate_from): (Sys::Region, f64),
     interface: usize,
-    rate_from: f64,
-) -> Result<Transition<Sys::Region, N>, Error>
-where
-    Sys: System<N>,
-    Sch: Scheme,
-    Loc: Locator,
-    Obs: Observer<Sys::Region, N>,
-{
-    let (t, x) = (walk.time.value, walk.state.x);
-    let from = walk.region;
-    let meeting = Meeting::new(walk.system, (from, rate_from), interface, t, &x)?;
+    time: Time,
+    state: &State<N>,
+) -> Result<Transition<Sys::Region, N>, Error> {
+    let meeting = Meeting::new(system, (from, rate_from), interface, time.value, &state.x)?;
     let Meeting { to, rate_to, .. } = meeting;
     let inwards = Sys::sides(to)[interface].sign();
     if rate_to * inwards < 0.0 {
@@ -80,10 +98,10 @@ where
         return Err(meeting.tangential());
     }
     Ok(Transition {
-        t,
-        time: walk.time,
-        x,
-        remainder: walk.state.remainder,
+        t: time.value,
+        time,
+        x: state.x,
+        remainder: state.remainder,
         interface,
         from,
         to,

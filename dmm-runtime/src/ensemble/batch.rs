@@ -1,0 +1,337 @@
+//! A batch of trajectories in lanes.
+//!
+//! The lanes of a register are in the same region, so that they all have the same formulas. Each
+//! trajectory waits in a queue: of those that start, of those under way in a region, of those
+//! that cross an interface in their next step, of those that have just entered a region at an
+//! interface. A lane that leaves goes to its next queue and another trajectory takes its place.
+//! What is rare, a step that comes close to an interface without a clear crossing, is made by
+//! the scalar scheme.
+
+use super::kernel::{Job, Kernel, Settings};
+use super::register::{Leave, Register, WIDTH, Wide};
+use super::trajectory::Trajectory;
+use super::vectorised::{Vectorised, Work};
+use super::{Member, Outcome};
+use crate::end::Halted;
+use crate::error::Error;
+use crate::scalar::Scalar;
+use crate::scheme::Taylor;
+use crate::system::System;
+use crate::time::Time;
+use crate::transition::neighbour;
+use crate::walk::Decay;
+
+/// What a queue waits for.
+#[derive(Clone, Copy, Debug)]
+struct Purpose {
+    /// Of the region.
+    region: usize,
+    job: Job,
+}
+
+/// Where the trajectories of a batch wait.
+#[derive(Debug)]
+struct Queues {
+    interfaces: usize,
+    waiting: Vec<(Purpose, Vec<usize>)>,
+}
+
+impl Queues {
+    fn new(regions: usize, interfaces: usize) -> Self {
+        let jobs = |region| {
+            let plain = [Job::Step, Job::Enter(None)].into_iter();
+            let enter = (0..interfaces).map(|interface| Job::Enter(Some(interface)));
+            let cross = (0..interfaces).map(Job::Cross);
+            let jobs = plain.chain(enter).chain(cross);
+            jobs.map(move |job| (Purpose { region, job }, Vec::new()))
+        };
+        Self {
+            interfaces,
+            waiting: (0..regions).flat_map(jobs).collect(),
+        }
+    }
+
+    fn of(&mut self, region: usize, job: Job) -> &mut Vec<usize> {
+        let place = match job {
+            Job::Step => 0,
+            Job::Enter(None) => 1,
+            Job::Enter(Some(interface)) => 2 + interface,
+            Job::Cross(interface) => 2 + self.interfaces + interface,
+        };
+        &mut self.waiting[region * (2 + 2 * self.interfaces) + place].1
+    }
+
+    fn is_longer_than(&self, length: usize) -> bool {
+        self.waiting.iter().any(|(_, queue)| queue.len() > length)
+    }
+
+    /// The longest, if any trajectory waits.
+    fn longest(&self) -> Option<Purpose> {
+        let longest = self.waiting.iter().max_by_key(|(_, queue)| queue.len())?;
+        (!longest.1.is_empty()).then_some(longest.0)
+    }
+}
+
+/// A batch under way.
+pub(super) struct Batch<'a, Sys: System<N>, const N: usize> {
+    vectorised: Vectorised,
+    scheme: &'a Taylor,
+    settings: Settings,
+    trajectories: Vec<Trajectory<Sys, N>>,
+    /// The parameters of each trajectory.
+    parameters: Vec<f64>,
+    /// The members that the trajectories are of.
+    members: Vec<usize>,
+    outcomes: Vec<Option<Outcome<Sys::Region, N>>>,
+    queues: Queues,
+    /// By region and interface, the region on the other side.
+    neighbours: Vec<Option<(usize, Sys::Region)>>,
+    register: Register<N>,
+    /// The parameters in the lanes.
+    lanes: Vec<Wide>,
+}
+
+/// Integrates members until `t_end`.
+pub(super) fn run<Sys: System<N>, const N: usize>(
+    vectorised: Vectorised,
+    scheme: &Taylor,
+    members: Vec<Member<Sys, N>>,
+    t_end: f64,
+) -> Vec<Outcome<Sys::Region, N>> {
+    let mut batch = Batch::new(vectorised, scheme, members, t_end);
+    while let Some(purpose) = batch.queues.longest() {
+        batch.serve(purpose);
+    }
+    batch.outcomes.into_iter().flatten().collect()
+}
+
+/// The index of a region.
+fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
+    let is_it = |candidate: &Sys::Region| *candidate == region;
+    Sys::REGIONS.iter().position(is_it).unwrap_or_default()
+}
+
+/// By region and interface, the region on the other side.
+fn neighbours<Sys: System<N>, const N: usize>() -> Vec<Option<(usize, Sys::Region)>> {
+    let regions = Sys::REGIONS.iter();
+    let of = |region| {
+        (0..Sys::INTERFACES.len()).map(move |interface| {
+            let other = neighbour::<Sys, N>(region, interface)?;
+            Some((index_of::<Sys, N>(other), other))
+        })
+    };
+    regions.flat_map(|&region| of(region)).collect()
+}
+
+impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
+    fn new(
+        vectorised: Vectorised,
+        scheme: &'a Taylor,
+        members: Vec<Member<Sys, N>>,
+        t_end: f64,
+    ) -> Self {
+        let count = members.len();
+        let mut batch = Self {
+            vectorised,
+            scheme,
+            settings: Settings {
+                end: t_end,
+                order: scheme.order(),
+                fraction: scheme.fraction(),
+                decay: Decay::new(scheme.fraction()),
+                corrects: scheme.corrects_level(),
+            },
+            trajectories: Vec::with_capacity(count),
+            parameters: Vec::with_capacity(count * Sys::PARAMETERS.len()),
+            members: Vec::with_capacity(count),
+            outcomes: (0..count).map(|_| None).collect(),
+            queues: Queues::new(Sys::REGIONS.len(), Sys::INTERFACES.len()),
+            neighbours: neighbours::<Sys, N>(),
+            register: Register::new(),
+            lanes: vec![Wide::from_f64(0.0); Sys::PARAMETERS.len()],
+        };
+        for (index, member) in members.into_iter().enumerate() {
+            match Trajectory::new(*scheme, member, t_end) {
+                Err(halted) => batch.outcomes[index] = Some(Err(halted)),
+                Ok(trajectory) => {
+                    let number = batch.trajectories.len();
+                    let region = index_of::<Sys, N>(trajectory.region);
+                    let queue = batch.queues.of(region, Job::Enter(trajectory.fresh));
+                    queue.push(number);
+                    batch.parameters.extend(trajectory.system.parameters());
+                    batch.trajectories.push(trajectory);
+                    batch.members.push(index);
+                }
+            }
+        }
+        batch
+    }
+
+    /// Works on a queue, until lanes are free for a longer one.
+    fn serve(
+        &mut self,
+        Purpose {
+            mut region,
+            mut job,
+        }: Purpose,
+    ) {
+        for lane in 0..WIDTH {
+            let next = self.queues.of(region, job).pop();
+            self.load(lane, next);
+        }
+        loop {
+            self.vectorised.run::<Sys, N>(Work {
+                region: Sys::REGIONS[region],
+                parameters: &self.lanes,
+                kernel: Kernel {
+                    register: &mut self.register,
+                    settings: &self.settings,
+                    job,
+                },
+            });
+            if let Job::Cross(interface) = job
+                && let Some(next) = self.enter(region, interface)
+            {
+                (region, job) = (next, Job::Enter(Some(interface)));
+                continue;
+            }
+            let refills = !matches!(job, Job::Cross(_));
+            let mut used = 0;
+            for lane in 0..WIDTH {
+                if self.register.is_idle(lane) {
+                    continue;
+                }
+                let leave = self.register.leave(lane);
+                if leave != Leave::Not {
+                    self.release(lane, region, leave);
+                    let next = match refills {
+                        true => self.queues.of(region, Job::Step).pop(),
+                        false => None,
+                    };
+                    self.load(lane, next);
+                }
+                used += usize::from(!self.register.is_idle(lane));
+            }
+            if used < WIDTH && self.queues.is_longer_than(used) || used == 0 {
+                return self.put_back(region);
+            }
+            job = Job::Step;
+        }
+    }
+
+    /// Puts a trajectory into a lane, or nothing.
+    fn load(&mut self, lane: usize, number: Option<usize>) {
+        self.register.set_idle(lane, number.is_none());
+        let Some(number) = number else { return };
+        let count = self.lanes.len();
+        let parameters = &self.parameters[number * count..];
+        for (wide, &parameter) in self.lanes.iter_mut().zip(parameters) {
+            wide.0[lane] = parameter;
+        }
+        self.register.slots[lane] = number;
+        self.register.load(lane, &self.trajectories[number]);
+    }
+
+    /// Takes the lanes out of the register, to go on later.
+    fn put_back(&mut self, region: usize) {
+        for lane in 0..WIDTH {
+            if !self.register.is_idle(lane) {
+                self.release(lane, region, Leave::Not);
+                self.register.set_idle(lane, true);
+            }
+        }
+    }
+
+    /// Sends the trajectory in a lane to where it goes next.
+    fn release(&mut self, lane: usize, region: usize, leave: Leave) {
+        let number = self.register.slots[lane];
+        let trajectory = &mut self.trajectories[number];
+        let started = self.register.store(lane, trajectory);
+        if started || leave != Leave::Hard {
+            trajectory.arrived();
+        }
+        match leave {
+            Leave::Not => self.queues.of(region, Job::Step).push(number),
+            Leave::Finished => self.finish(number, Ok(())),
+            Leave::Crosses(interface) => {
+                self.queues.of(region, Job::Cross(interface)).push(number);
+            }
+            Leave::Crossed(interface) => self.cross(number, region, interface),
+            Leave::Hard => self.step_alone(number),
+        }
+    }
+
+    /// If all lanes have come to the interface they stay together: the region that they enter.
+    fn enter(&mut self, region: usize, interface: usize) -> Option<usize> {
+        let other = self.neighbours[region * Sys::INTERFACES.len() + interface];
+        let index = other?.0;
+        let arrived = Leave::Crossed(interface);
+        let stays = |lane| self.register.is_idle(lane) || self.register.leave(lane) == arrived;
+        if !(0..WIDTH).all(stays) {
+            return None;
+        }
+        for lane in 0..WIDTH {
+            if self.register.is_idle(lane) {
+                continue;
+            }
+            let number = self.register.slots[lane];
+            let trajectory = &mut self.trajectories[number];
+            self.register.pass_on(lane, trajectory);
+            if let Err(error) = trajectory.cross(interface, other) {
+                self.register.store(lane, trajectory);
+                self.register.set_idle(lane, true);
+                self.finish(number, Err(error));
+            }
+        }
+        if (0..WIDTH).all(|lane| self.register.is_idle(lane)) {
+            return None;
+        }
+        Some(index)
+    }
+
+    /// A trajectory has come to an interface.
+    fn cross(&mut self, number: usize, region: usize, interface: usize) {
+        let trajectory = &mut self.trajectories[number];
+        match trajectory.cross(
+            interface,
+            self.neighbours[region * Sys::INTERFACES.len() + interface],
+        ) {
+            Ok(region) => self
+                .queues
+                .of(region, Job::Enter(Some(interface)))
+                .push(number),
+            Err(error) => self.finish(number, Err(error)),
+        }
+    }
+
+    /// Makes a step by the scalar scheme.
+    fn step_alone(&mut self, number: usize) {
+        let end = self.settings.end;
+        let trajectory = &mut self.trajectories[number];
+        let until = trajectory.time.value + trajectory.tau;
+        let until = match until > trajectory.time.value && until < end {
+            true => until,
+            false => end,
+        };
+        match trajectory.go_on(self.scheme, until) {
+            Err(error) => self.finish(number, Err(error)),
+            Ok(()) if trajectory.time == Time::new(end) => self.finish(number, Ok(())),
+            Ok(()) => {
+                let region = index_of::<Sys, N>(trajectory.region);
+                let job = match trajectory.fresh {
+                    None => Job::Step,
+                    fresh => Job::Enter(fresh),
+                };
+                self.queues.of(region, job).push(number);
+            }
+        }
+    }
+
+    fn finish(&mut self, number: usize, result: Result<(), Error>) {
+        let end = self.trajectories[number].end();
+        self.outcomes[self.members[number]] = Some(match result {
+            Ok(()) => Ok(end),
+            Err(error) => Err(Halted::new(error, end)),
+        });
+    }
+}

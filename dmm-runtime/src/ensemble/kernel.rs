@@ -1,0 +1,488 @@
+//! Steps of all lanes of a register, which are in the same region.
+
+use std::hint::black_box;
+
+use super::glance::glance;
+use super::level::{Place, coarse, two_sum, vector};
+use super::register::{Register, WIDTH, Wide};
+use crate::lanes::Mask;
+use crate::scalar::Scalar;
+use crate::series::jet::FIRST;
+use crate::series::polynomial::increment;
+use crate::series::{Choice, Coefficients, Order, Unroll};
+use crate::system::{Boundary, Flow, FlowVisitor, Vector};
+use crate::walk::Decay;
+
+/// Corrections of a crossing.
+const MOST_CORRECTIONS: u32 = 12;
+/// A correction of the time smaller than this part of the step is made along the field.
+const SMALL: f64 = 1e-8;
+
+/// What is to be done.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Job {
+    /// Steps, until a lane needs attention.
+    Step,
+    /// The same from the entry into the region, which may have been at an interface.
+    Enter(Option<usize>),
+    /// To move to the interface that all of them cross in their next step.
+    Cross(usize),
+}
+
+/// The same for all trajectories.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Settings {
+    pub(super) end: f64,
+    pub(super) order: usize,
+    /// The part of the radius of convergence that a step takes.
+    pub(super) fraction: f64,
+    pub(super) decay: Decay,
+    pub(super) corrects: bool,
+}
+
+/// The register with what is to be done.
+pub(super) struct Kernel<'a, const N: usize> {
+    pub(super) register: &'a mut Register<N>,
+    pub(super) settings: &'a Settings,
+    pub(super) job: Job,
+}
+
+impl<const N: usize> FlowVisitor<N, Wide> for Kernel<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn visit<const M: usize, F: Flow<Wide, N, M>>(self, flow: &F) {
+        let order = self.settings.order;
+        F::Unrolled::choose(order, InRegion::<F, N, M> { kernel: self, flow });
+    }
+}
+
+/// A kernel in the region of a flow.
+struct InRegion<'a, F, const N: usize, const M: usize> {
+    kernel: Kernel<'a, N>,
+    flow: &'a F,
+}
+
+impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Choice for InRegion<'_, F, N, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with<const P: usize>(self) {
+        let Self { kernel, flow } = self;
+        let mut series = F::series::<P>();
+        // in memory, where the compiler finds what belongs into one register
+        let series = black_box(&mut series);
+        let mut run = Run::<F, N, M, P> {
+            register: kernel.register,
+            settings: kernel.settings,
+            flow,
+            series,
+        };
+        let mut entry = Entry::default();
+        if let Job::Enter(interface) = kernel.job {
+            entry = run.enter(interface);
+        }
+        loop {
+            run.expand();
+            if let Job::Cross(interface) = kernel.job {
+                return run.cross(interface);
+            }
+            if run.step(&entry) {
+                return;
+            }
+            entry = Entry::default();
+        }
+    }
+}
+
+/// A kernel with P coefficients.
+struct Run<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> {
+    register: &'a mut Register<N>,
+    settings: &'a Settings,
+    flow: &'a F,
+    series: &'a mut F::Series<P>,
+}
+
+/// The solution's series as it advances.
+struct Solution<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> {
+    flow: &'a F,
+    t: Wide,
+    series: &'a mut F::Series<P>,
+}
+
+impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Coefficients
+    for Solution<'_, F, N, M, P>
+{
+    #[inline(always)]
+    fn advance<K: Order>(&mut self, k: K) {
+        self.flow.advance(k, self.t, self.series);
+    }
+}
+
+/// The first coefficients of the switching functions as they advance.
+struct First<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize> {
+    flow: &'a F,
+    t: Wide,
+    states: &'a [[Wide; FIRST]; N],
+    series: <F::Boundary as Boundary<Wide, N>>::Series<FIRST>,
+}
+
+impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Coefficients for First<'_, F, N, M> {
+    #[inline(always)]
+    fn advance<K: Order>(&mut self, k: K) {
+        let boundary = self.flow.boundary();
+        boundary.advance(k, self.t, self.states, &mut self.series);
+    }
+}
+
+/// How the series of a boundary advance.
+type BoundaryUnrolled<F, const N: usize, const M: usize> =
+    <<F as Flow<Wide, N, M>>::Boundary as Boundary<Wide, N>>::Unrolled;
+
+/// How the lanes have come to where a step starts.
+#[derive(Default)]
+struct Entry {
+    /// There was no step in this region before.
+    enters: bool,
+    /// They are on this interface …
+    interface: Option<usize>,
+    /// … but these are not led into the region.
+    barred: Option<Mask<WIDTH>>,
+}
+
+/// What the lanes meet in a step.
+struct Ahead {
+    hard: Mask<WIDTH>,
+    crosses: Mask<WIDTH>,
+    elapsed: Wide,
+    interface: Wide,
+}
+
+/// g at a place, and how it changes there.
+struct Approach<const N: usize> {
+    value: Wide,
+    gradient: Vector<Wide, N>,
+    field: Vector<Wide, N>,
+    /// dg/dt
+    rate: Wide,
+}
+
+impl<const N: usize> Register<N> {
+    /// Where the lanes are.
+    #[inline(always)]
+    pub(super) fn place(&self) -> Place<N> {
+        Place {
+            t: self.t,
+            t_remainder: self.t_remainder,
+            x: self.x,
+            remainder: self.remainder,
+        }
+    }
+
+    /// Moves the lanes of a mask.
+    #[inline(always)]
+    fn move_to(&mut self, moved: Mask<WIDTH>, place: &Place<N>) {
+        self.t = moved.select(place.t, self.t);
+        self.t_remainder = moved.select(place.t_remainder, self.t_remainder);
+        for i in 0..N {
+            self.x[i] = moved.select(place.x[i], self.x[i]);
+            self.remainder[i] = moved.select(place.remainder[i], self.remainder[i]);
+        }
+    }
+}
+
+/// Where a place has finite coordinates.
+#[inline(always)]
+fn is_finite<const N: usize>(place: &Place<N>) -> Mask<WIDTH> {
+    let zero = Wide::from_f64(0.0);
+    // 0·u is 0 for a finite u and NaN otherwise
+    let sum = (0..N).fold(zero, |sum, i| sum + zero * place.x[i]);
+    sum.equals(zero)
+}
+
+impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_, F, N, M, P> {
+    /// The interfaces that bound the region, with its sides.
+    #[inline(always)]
+    fn sides() -> &'static [(usize, crate::system::Side)] {
+        <F::Boundary as Boundary<Wide, N>>::SIDES
+    }
+
+    /// The sign of g in the region.
+    #[inline(always)]
+    fn sign(interface: usize) -> f64 {
+        let mut sides = Self::sides().iter();
+        let side = sides.find(|(other, _)| *other == interface);
+        side.map_or(0.0, |(_, side)| side.sign())
+    }
+
+    /// The level of a region that is entered.
+    #[inline(always)]
+    fn enter(&mut self, interface: Option<usize>) -> Entry {
+        self.register.enter_level(self.flow);
+        let barred = interface.map(|interface| {
+            let rate = self.approach(interface, &self.register.place()).rate;
+            let inwards = Wide::from_f64(Self::sign(interface)) * rate;
+            inwards.above(Wide::from_f64(0.0)).not()
+        });
+        Entry {
+            enters: true,
+            interface,
+            barred,
+        }
+    }
+
+    /// The solution's coefficients.
+    #[inline(always)]
+    fn expand(&mut self) {
+        let register = &*self.register;
+        let components = self.series.as_mut().iter_mut().zip(register.x.iter());
+        for (component, &x) in components {
+            component[0] = x;
+        }
+        let end = self.settings.order + 1;
+        let mut solution = Solution::<F, N, M, P> {
+            flow: self.flow,
+            t: register.t,
+            series: self.series,
+        };
+        F::Unrolled::run::<0, P, 1, _>(&mut solution, end);
+    }
+
+    #[inline(always)]
+    fn order(&self) -> usize {
+        match F::Unrolled::EXACT {
+            true => P - 1,
+            false => self.settings.order,
+        }
+    }
+
+    /// The steps that the tolerance allows; see [`crate::series::jet::Jet::step`].
+    #[inline(always)]
+    fn wanted(&self, enters: bool) -> Wide {
+        let order = self.order();
+        let zero = Wide::from_f64(0.0);
+        let (mut last, mut second) = (zero, zero);
+        let series = &self.series.as_ref()[..N];
+        let largest = |k: usize| {
+            series
+                .iter()
+                .fold(zero, |largest, c| largest.max(c[k].abs()))
+        };
+        for c in series {
+            let mut size = c[1].abs().fused(self.register.before, c[0].abs());
+            if enters {
+                // there may have been no step before
+                let first = largest(0).above(zero).select(largest(0), largest(1));
+                size = self.register.before.above(zero).select(size, first);
+            }
+            let scale = Wide::from_f64(1.0) / size.max(Wide::from_f64(f64::MIN_POSITIVE));
+            last = last.max(c[order].abs() * scale);
+            second = second.max(c[order - 1].abs() * scale);
+        }
+        let radius = inverse_root(last, order).min(inverse_root(second, order - 1));
+        Wide::from_f64(self.settings.fraction) * radius
+    }
+
+    /// Σ xⱼ hʲ over j ≥ 1.
+    #[inline(always)]
+    fn increment(&self, h: Wide) -> Vector<Wide, N> {
+        // a loop, as closures are not inlined for certain
+        let mut sum: Vector<Wide, N> = Vector::from_element(Wide::from_f64(0.0));
+        for (sum, series) in sum.iter_mut().zip(self.series.as_ref()) {
+            *sum = increment(series, h).settled();
+        }
+        sum
+    }
+
+    /// The place after `elapsed`, without correction.
+    #[inline(always)]
+    fn after(&self, elapsed: Wide) -> Place<N> {
+        let mut place = self.register.place();
+        place.add_time(elapsed);
+        place.add(&self.increment(elapsed));
+        place
+    }
+
+    /// A step of every lane, and whether one needs attention.
+    #[inline(always)]
+    fn step(&mut self, entry: &Entry) -> bool {
+        let n = Wide::from_f64;
+        let (start, start_remainder) = (self.register.t, self.register.t_remainder);
+        let wanted = self.wanted(entry.enters).settled();
+        let (difference, error) = two_sum(n(self.settings.end), -start);
+        let remaining = difference + (error - start_remainder);
+        let last = wanted.above(remaining).or(wanted.equals(remaining));
+        let mut tau = last.select(remaining, wanted);
+        let mut place = self.register.place();
+        if F::AUTONOMOUS {
+            place.add_time(tau);
+        } else {
+            // the formulas are evaluated at a double
+            place.t = start + wanted;
+            let (difference, error) = two_sum(place.t, -start);
+            tau = last.select(remaining, difference + (error - start_remainder));
+            place.t_remainder = n(0.0);
+        }
+        place.t = last.select(n(self.settings.end), place.t);
+        place.t_remainder = last.select(n(0.0), place.t_remainder);
+        place.add(&self.increment(tau));
+        let ahead = self.look_ahead(tau, &place, entry.interface);
+        if self.settings.corrects {
+            self.register.correct(self.flow, &mut place);
+        } else {
+            place.normalise();
+        }
+        let stands = place
+            .t
+            .equals(start)
+            .and(place.t_remainder.equals(start_remainder));
+        let moves = tau.above(n(0.0)).and(stands.not());
+        let mut hard = ahead.hard.or(is_finite(&place).not()).or(moves.not());
+        if let Some(barred) = entry.barred {
+            hard = hard.or(barred);
+        }
+        let moved = hard.or(ahead.crosses).not();
+        self.register.move_to(moved, &place);
+        self.register.before = moved.select(wanted, self.register.before);
+        self.register.steps += moved.select(n(1.0), n(0.0));
+        self.register.elapsed = ahead.elapsed;
+        self.register.tau = tau;
+        let crosses = (ahead.crosses, ahead.interface);
+        self.register.note(hard, crosses, moved.and(last))
+    }
+
+    /// What the lanes meet in steps over `tau` that end at a place.
+    #[inline(always)]
+    fn look_ahead(&self, tau: Wide, place: &Place<N>, fresh: Option<usize>) -> Ahead {
+        let none = Mask::all(false);
+        let mut ahead = Ahead {
+            hard: none,
+            crosses: none,
+            elapsed: Wide::from_f64(0.0),
+            interface: Wide::from_f64(0.0),
+        };
+        if Self::sides().is_empty() {
+            return ahead;
+        }
+        let field = self.flow.vector_field(place.t, &place.x);
+        let own = self.series.as_ref();
+        let states = std::array::from_fn(|i| {
+            std::array::from_fn(|k| {
+                if k < P {
+                    own[i][k]
+                } else {
+                    Wide::from_f64(0.0)
+                }
+            })
+        });
+        let mut first = First::<F, N, M> {
+            flow: self.flow,
+            t: self.register.t,
+            states: &states,
+            series: F::Boundary::series(),
+        };
+        BoundaryUnrolled::<F, N, M>::run::<0, FIRST, 0, _>(&mut first, FIRST);
+        for &(interface, side) in Self::sides() {
+            let sign = Wide::from_f64(side.sign());
+            let series = first.series.as_ref()[interface].map(|c| sign * c);
+            let boundary = self.flow.boundary();
+            let value = boundary.switching_function(interface, place.t, &place.x);
+            let (by_time, gradient) = boundary.switching_gradient(interface, place.t, &place.x);
+            let slope = (0..N).fold(by_time, |sum, i| gradient[i].fused(field[i], sum));
+            let end = (sign * value, sign * slope);
+            let fresh = fresh == Some(interface);
+            let seen = glance(&series, end, tau, self.settings.decay, fresh);
+            ahead.hard = ahead.hard.or(seen.out.or(seen.once).not());
+            // one crossing or the other may come first
+            ahead.hard = ahead.hard.or(seen.once.and(ahead.crosses));
+            ahead.crosses = ahead.crosses.or(seen.once);
+            ahead.elapsed = seen.once.select(seen.elapsed, ahead.elapsed);
+            let interface = Wide::from_f64(interface as f64);
+            ahead.interface = seen.once.select(interface, ahead.interface);
+        }
+        ahead
+    }
+
+    /// Moves every lane to the interface: t̂* and x̂* such that g = 0 and ψ keeps its level.
+    #[inline(always)]
+    fn cross(&mut self, interface: usize) {
+        let n = Wide::from_f64;
+        let used = self.register.used();
+        let tau = self.register.tau;
+        let mut elapsed = self.register.elapsed;
+        let start = self.approach(interface, &self.register.place());
+        let mut place = self.after(elapsed);
+        let mut located = used.not();
+        for _ in 0..MOST_CORRECTIONS {
+            let Approach { value, rate, .. } = self.approach(interface, &place);
+            let inverse = n(1.0) / elapsed;
+            let chord = (start.value - value) * inverse;
+            let bend = inverse * (n(6.0) * chord + n(2.0) * start.rate + n(4.0) * rate);
+            let delta = -(value * rate) / (rate * rate - n(0.5) * value * bend);
+            located = (n(SMALL) * tau).above(delta.abs()).or(used.not());
+            if !located.not().any() {
+                break;
+            }
+            elapsed = (elapsed + delta).max(n(0.0)).min(tau);
+            place = self.after(elapsed);
+        }
+        let mut settled = used.not();
+        for _ in 0..MOST_CORRECTIONS {
+            let approach = self.approach(interface, &place);
+            let off = match self.settings.corrects {
+                true => self.register.correction(self.flow, &place),
+                false => Vector::from_element(n(0.0)),
+            };
+            let value = (0..N).fold(approach.value, |sum, i| {
+                approach.gradient[i].fused(off[i], sum)
+            });
+            let delta = -value / approach.rate;
+            let displacement: Vector<Wide, N> = vector(|i| approach.field[i].fused(delta, off[i]));
+            for i in 0..N {
+                place.remainder[i] += displacement[i];
+            }
+            place.normalise();
+            place.add_time(delta);
+            self.register.rate = approach.rate;
+            settled = coarse(&displacement, &place.x).not().or(used.not());
+            if !settled.not().any() {
+                break;
+            }
+        }
+        let crossed = located.and(settled).and(is_finite(&place));
+        self.register.move_to(crossed, &place);
+        self.register.before = crossed.select(tau, self.register.before);
+        self.register.steps += crossed.select(n(1.0), n(0.0));
+        self.register.note_crossed(crossed, interface);
+    }
+
+    /// g at a place, all of it.
+    #[inline(always)]
+    fn approach(&self, interface: usize, place: &Place<N>) -> Approach<N> {
+        let boundary = self.flow.boundary();
+        let value = boundary.switching_function(interface, place.t, &place.x);
+        let (by_time, gradient) = boundary.switching_gradient(interface, place.t, &place.x);
+        let field = self.flow.vector_field(place.t, &place.x);
+        let value = by_time.fused(place.t_remainder, value);
+        Approach {
+            value: (0..N).fold(value, |sum, i| gradient[i].fused(place.remainder[i], sum)),
+            rate: (0..N).fold(by_time, |sum, i| gradient[i].fused(field[i], sum)),
+            gradient,
+            field,
+        }
+    }
+}
+
+/// m^(−1/k) for m > 0 in every lane; see [`crate::series::polynomial::inverse_root`]. Half of
+/// the bits are enough for a step, and are multiplied by one instruction.
+#[inline(always)]
+fn inverse_root(m: Wide, k: usize) -> Wide {
+    const ONE: i64 = 1023 << 52;
+    let inverse = (1i64 << 31) / k as i64;
+    let mut root = m;
+    for root in &mut root.0 {
+        let logarithm = (ONE - root.to_bits() as i64) >> 32;
+        *root = f64::from_bits((ONE + ((logarithm * inverse) << 1)) as u64);
+    }
+    root
+}

@@ -1,0 +1,143 @@
+//! The trajectories in the lanes of a register.
+
+use crate::lanes::{Lanes, Mask};
+use crate::scalar::Scalar;
+use crate::system::Vector;
+
+/// Trajectories that are stepped together: the vectors of four doubles that most processors
+/// have.
+pub(super) const WIDTH: usize = 4;
+
+/// A scalar of each trajectory.
+pub(super) type Wide = Lanes<WIDTH>;
+
+/// Why the trajectory in a lane needs attention.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Leave {
+    /// It does not.
+    Not,
+    /// It is at the end time.
+    Finished,
+    /// It crosses an interface in this step.
+    Crosses(usize),
+    /// It is on the interface.
+    Crossed(usize),
+    /// Its step needs a closer look, or cannot be made.
+    Hard,
+}
+
+impl Leave {
+    const FINISHED: f64 = 1.0;
+    const CROSSED: f64 = 2.0;
+    const CROSSES: f64 = 3.0;
+    const HARD: f64 = -1.0;
+}
+
+/// The lanes: (t, x) of each with its remainders, and the level of its region.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub(super) struct Register<const N: usize> {
+    pub(super) x: Vector<Wide, N>,
+    pub(super) remainder: Vector<Wide, N>,
+    pub(super) t: Wide,
+    pub(super) t_remainder: Wide,
+    /// The size of the step before.
+    pub(super) before: Wide,
+    /// ψ_ref, D and the noise of ψ; see [`crate::level`].
+    pub(super) level: [Vector<Wide, N>; 3],
+    /// About how long after the start of its step a lane meets an interface.
+    pub(super) elapsed: Wide,
+    /// The size of that step.
+    pub(super) tau: Wide,
+    /// dg/dt on the interface.
+    pub(super) rate: Wide,
+    /// Steps made.
+    pub(super) steps: Wide,
+    /// 1 in a lane that is not used, else 0.
+    idle: Wide,
+    /// A [`Leave`] as a number.
+    leave: Wide,
+    /// The interface that is crossed.
+    interface: Wide,
+    /// The trajectories.
+    pub(super) slots: [usize; WIDTH],
+}
+
+impl<const N: usize> Register<N> {
+    pub(super) fn new() -> Self {
+        let zero = Wide::from_f64(0.0);
+        let vector = Vector::from_element(zero);
+        Self {
+            x: vector,
+            remainder: vector,
+            t: zero,
+            t_remainder: zero,
+            before: zero,
+            level: [vector; 3],
+            elapsed: zero,
+            tau: zero,
+            rate: zero,
+            steps: zero,
+            idle: zero,
+            leave: zero,
+            interface: zero,
+            slots: [0; WIDTH],
+        }
+    }
+
+    /// Puts a lane to use, or out of it.
+    pub(super) fn set_idle(&mut self, lane: usize, idle: bool) {
+        self.idle.0[lane] = f64::from(u8::from(idle));
+        self.leave.0[lane] = 0.0;
+    }
+
+    pub(super) fn is_idle(&self, lane: usize) -> bool {
+        self.idle.0[lane] != 0.0
+    }
+
+    /// The lanes in use.
+    #[inline(always)]
+    pub(super) fn used(&self) -> Mask<WIDTH> {
+        self.idle.equals(Wide::from_f64(0.0))
+    }
+
+    /// Notes which lanes need attention, the first mask that applies, and tells whether there
+    /// are any in use.
+    #[inline(always)]
+    pub(super) fn note(
+        &mut self,
+        hard: Mask<WIDTH>,
+        (crosses, interface): (Mask<WIDTH>, Wide),
+        finished: Mask<WIDTH>,
+    ) -> bool {
+        let mark = Wide::from_f64;
+        let not = self.idle * mark(0.0);
+        let leave = finished.select(mark(Leave::FINISHED), not);
+        let leave = crosses.select(mark(Leave::CROSSES), leave);
+        let leave = hard.select(mark(Leave::HARD), leave);
+        self.leave = leave;
+        self.interface = interface;
+        let used = mark(1.0) - self.idle;
+        let marked = (leave * leave * used).0;
+        marked.iter().sum::<f64>() != 0.0
+    }
+
+    /// Notes which lanes have reached the interface; the others need a closer look.
+    #[inline(always)]
+    pub(super) fn note_crossed(&mut self, crossed: Mask<WIDTH>, interface: usize) {
+        let mark = Wide::from_f64;
+        self.interface = mark(interface as f64);
+        self.leave = crossed.select(mark(Leave::CROSSED), mark(Leave::HARD));
+    }
+
+    /// Why a lane in use needs attention.
+    pub(super) fn leave(&self, lane: usize) -> Leave {
+        match self.leave.0[lane] {
+            0.0 => Leave::Not,
+            Leave::FINISHED => Leave::Finished,
+            Leave::CROSSED => Leave::Crossed(self.interface.0[lane] as usize),
+            Leave::CROSSES => Leave::Crosses(self.interface.0[lane] as usize),
+            _ => Leave::Hard,
+        }
+    }
+}

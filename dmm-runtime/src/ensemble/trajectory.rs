@@ -1,0 +1,234 @@
+//! A trajectory of an ensemble, in a lane or by itself.
+
+use std::ops::ControlFlow;
+
+use super::Member;
+use super::register::Register;
+use crate::end::{End, Halted};
+use crate::error::Error;
+use crate::observer::{Observer, Point, Transition};
+use crate::scheme::{Drive, Taylor};
+use crate::state::State;
+use crate::statistics::Statistics;
+use crate::system::{System, Vector};
+use crate::time::Time;
+use crate::transition::NewtonLocator;
+use crate::walk::{Crowd, Walk, enter, run_segments};
+
+/// A crossing that is still to be judged.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing<R> {
+    /// The region that is left.
+    pub(super) from: R,
+    /// dg/dt there.
+    pub(super) rate_from: f64,
+}
+
+/// A trajectory under way.
+#[derive(Clone, Debug)]
+pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
+    pub(super) system: Sys,
+    pub(super) time: Time,
+    pub(super) state: State<N>,
+    pub(super) region: Sys::Region,
+    /// The interface that it is on.
+    pub(super) fresh: Option<usize>,
+    /// How it came there, until the region entered has been found to take it.
+    pub(super) crossing: Option<Crossing<Sys::Region>>,
+    pub(super) progress: <Taylor as Drive>::Progress,
+    pub(super) crowd: Crowd,
+    pub(super) statistics: Statistics,
+    /// ψ_ref, D and the noise of ψ in the region; see [`crate::level`].
+    pub(super) level: [Vector<f64, N>; 3],
+    /// About how long after the start of its step it meets an interface.
+    pub(super) elapsed: f64,
+    /// The size of that step.
+    pub(super) tau: f64,
+    /// dg/dt on the interface.
+    rate: f64,
+}
+
+/// Ends an integration at the first transition.
+struct First {
+    seen: bool,
+}
+
+impl<R, const N: usize> Observer<R, N> for First {
+    const LISTENS: bool = false;
+
+    fn transition(&mut self, _: &Transition<R, N>) -> ControlFlow<()> {
+        self.seen = true;
+        ControlFlow::Break(())
+    }
+}
+
+impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
+    /// The start of a member.
+    pub(super) fn new(
+        scheme: Taylor,
+        member: Member<Sys, N>,
+        t_end: f64,
+    ) -> Result<Self, Halted<Sys::Region, N>> {
+        let problem = member.problem(scheme);
+        let start = problem.start(t_end).map_err(Halted::at_start)?;
+        Ok(Self {
+            time: Time::new(member.t0),
+            state: State::new(member.x0),
+            region: start.region,
+            fresh: start.interface,
+            crossing: None,
+            progress: problem.progress(t_end),
+            crowd: Crowd::default(),
+            statistics: Statistics::default(),
+            level: [Vector::zeros(); 3],
+            elapsed: 0.0,
+            tau: 0.0,
+            rate: 0.0,
+            system: member.system,
+        })
+    }
+
+    /// Where it is.
+    pub(super) fn end(&self) -> End<Sys::Region, N> {
+        End {
+            point: Point {
+                t: self.time.value,
+                time: self.time,
+                x: self.state.rounded(),
+                region: self.region,
+            },
+            remainder: self.state.remainder,
+            statistics: self.statistics,
+        }
+    }
+
+    /// Has come to an interface, on the other side of which there is a region: its index.
+    pub(super) fn cross(
+        &mut self,
+        interface: usize,
+        other: Option<(usize, Sys::Region)>,
+    ) -> Result<usize, Error> {
+        let (t, x) = (self.time.value, &self.state.x);
+        self.progress.pass(t, self.tau);
+        let step = Taylor::step_number(&self.progress);
+        self.crowd.count::<Sys, N>(step, interface, t, x)?;
+        self.fresh = Some(interface);
+        self.crossing = Some(Crossing {
+            from: self.region,
+            rate_from: self.rate,
+        });
+        match other {
+            Some((index, region)) => {
+                self.region = region;
+                Ok(index)
+            }
+            None => Err(self.no_region()),
+        }
+    }
+
+    fn no_region(&self) -> Error {
+        Error::NoRegion {
+            t: self.time.value,
+            x: self.state.x.iter().copied().collect(),
+        }
+    }
+
+    /// The region entered has taken it.
+    pub(super) fn arrived(&mut self) {
+        self.statistics.transitions += u64::from(self.crossing.is_some());
+        self.crossing = None;
+        self.fresh = None;
+    }
+
+    /// Judges the crossing that brought it here, if that is still to be done.
+    fn judge(&mut self) -> Result<(), Error> {
+        if let (Some(crossing), Some(interface)) = (self.crossing, self.fresh) {
+            let left = (crossing.from, crossing.rate_from);
+            let entered = enter(&self.system, left, interface, self.time, &self.state);
+            if let Err(error) = entered {
+                self.region = crossing.from;
+                return Err(error);
+            }
+            self.statistics.transitions += 1;
+            self.crossing = None;
+        }
+        Ok(())
+    }
+
+    /// Integrates until `until` or the first transition by the scalar scheme.
+    pub(super) fn go_on(&mut self, scheme: &Taylor, until: f64) -> Result<(), Error> {
+        self.judge()?;
+        let end = self.progress.end;
+        self.progress.end = until;
+        let mut first = First { seen: false };
+        let mut walk = Walk {
+            system: &self.system,
+            scheme,
+            locator: &NewtonLocator,
+            observer: &mut first,
+            progress: self.progress,
+            time: self.time,
+            state: self.state,
+            region: self.region,
+            fresh: self.fresh,
+            statistics: self.statistics,
+        };
+        let result = run_segments(&mut walk);
+        (self.time, self.state, self.region) = (walk.time, walk.state, walk.region);
+        (self.progress, self.statistics) = (walk.progress, walk.statistics);
+        self.fresh = walk.fresh.filter(|_| first.seen);
+        self.progress.end = end;
+        result
+    }
+}
+
+impl<const N: usize> Register<N> {
+    /// Puts a trajectory into a lane.
+    #[inline]
+    pub(super) fn load<Sys: System<N>>(&mut self, lane: usize, from: &Trajectory<Sys, N>) {
+        for i in 0..N {
+            self.x[i].0[lane] = from.state.x[i];
+            self.remainder[i].0[lane] = from.state.remainder[i];
+            for (wide, level) in self.level.iter_mut().zip(&from.level) {
+                wide[i].0[lane] = level[i];
+            }
+        }
+        self.t.0[lane] = from.time.value;
+        self.t_remainder.0[lane] = from.time.remainder;
+        self.before.0[lane] = from.progress.step;
+        self.elapsed.0[lane] = from.elapsed;
+        self.tau.0[lane] = from.tau;
+        self.steps.0[lane] = 0.0;
+    }
+
+    /// Tells a trajectory of the crossing in its lane, where it stays.
+    #[inline]
+    pub(super) fn pass_on<Sys: System<N>>(&mut self, lane: usize, to: &mut Trajectory<Sys, N>) {
+        to.time.value = self.t.0[lane];
+        to.tau = self.tau.0[lane];
+        to.rate = self.rate.0[lane];
+        to.statistics.steps += self.steps.0[lane] as u64;
+        self.steps.0[lane] = 0.0;
+    }
+
+    /// Takes a trajectory out of a lane, and tells whether it has moved.
+    #[inline]
+    pub(super) fn store<Sys: System<N>>(&self, lane: usize, to: &mut Trajectory<Sys, N>) -> bool {
+        for i in 0..N {
+            to.state.x[i] = self.x[i].0[lane];
+            to.state.remainder[i] = self.remainder[i].0[lane];
+            for (level, wide) in to.level.iter_mut().zip(&self.level) {
+                level[i] = wide[i].0[lane];
+            }
+        }
+        to.time.value = self.t.0[lane];
+        to.time.remainder = self.t_remainder.0[lane];
+        to.progress.step = self.before.0[lane];
+        to.elapsed = self.elapsed.0[lane];
+        to.tau = self.tau.0[lane];
+        to.rate = self.rate.0[lane];
+        let steps = self.steps.0[lane] as u64;
+        to.statistics.steps += steps;
+        steps > 0
+    }
+}
