@@ -3,12 +3,14 @@
 use std::ops::ControlFlow;
 
 use dmm_runtime::{
-    Boundary, Error, Flow, FlowVisitor, Integrator, Locator, NewtonLocator, Observer, Point,
-    Scheme, Statistics, System, Time, Transition, Vector,
+    Boundary, End, Ensemble, Error, Flow, FlowVisitor, Integrator, Locator, Member, NewtonLocator,
+    Observer, Point, Scheme, Statistics, System, Time, Transition, Vector,
 };
 
 use crate::method::{Method, SchemeVisitor, symmetric};
-use crate::problem::{Card, Crossed, Finish, OutputTimes, Problem, Record, Run, Sink};
+use crate::problem::{
+    Arrival, Card, Crew, Crossed, Fate, Finish, OutputTimes, Problem, Record, Run, Sink, Start,
+};
 
 /// A system with its card.
 #[derive(Clone, Debug)]
@@ -236,6 +238,55 @@ impl<const N: usize> FlowVisitor<N> for Switching<N> {
     }
 }
 
+/// A run from many starts.
+struct Together<'a, Sys, const N: usize> {
+    entry: &'a Entry<Sys, N>,
+    run: &'a Run,
+    crew: Crew,
+    starts: &'a mut dyn Iterator<Item = Start>,
+    sink: &'a mut dyn FnMut(Fate) -> ControlFlow<()>,
+}
+
+impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Together<'_, Sys, N> {
+    type Output = ();
+
+    fn visit<Sch: Scheme>(self, scheme: Sch) {
+        let member = |start: Start| {
+            let mut system = self.entry.system.clone();
+            for (index, value) in start.parameters.into_iter().enumerate() {
+                if let Some(parameter) = system.parameter_mut(index) {
+                    *parameter = value;
+                }
+            }
+            Member::new(system, 0.0, Entry::<Sys, N>::vector(&start.initial))
+        };
+        let arrival = |end: End<Sys::Region, N>| Arrival {
+            t: end.point.t,
+            x: end.point.x.as_slice().to_vec(),
+            region: index_of::<Sys, N>(end.point.region),
+            statistics: end.statistics,
+        };
+        let ensemble = Ensemble::new(scheme).lanes(self.crew.lanes);
+        let ensemble = match self.crew.threads {
+            Some(threads) => ensemble.threads(threads),
+            None => ensemble,
+        };
+        ensemble.run_until(self.run.t_end, self.starts.map(member), |_, outcome| {
+            let (end, error) = match outcome {
+                Ok(end) => (Some(end), None),
+                Err(halted) => {
+                    let (error, end) = halted.into_parts();
+                    (end, Some(error))
+                }
+            };
+            (self.sink)(Fate {
+                arrival: end.map(arrival),
+                error,
+            })
+        });
+    }
+}
+
 impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
     fn card(&self) -> &Card {
         self.card
@@ -329,6 +380,22 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
 
     fn integrate_silently(&self, run: &Run) -> Result<Finish, Error> {
         run.visit_scheme(Silent { entry: self, run })
+    }
+
+    fn integrate_all(
+        &self,
+        run: &Run,
+        crew: Crew,
+        starts: &mut dyn Iterator<Item = Start>,
+        sink: &mut dyn FnMut(Fate) -> ControlFlow<()>,
+    ) {
+        run.visit_scheme(Together {
+            entry: self,
+            run,
+            crew,
+            starts,
+            sink,
+        });
     }
 
     fn duplicate(&self) -> Box<dyn Problem> {

@@ -135,6 +135,47 @@ pub struct Finish {
     pub statistics: Statistics,
 }
 
+/// Where a member of an ensemble starts: all parameters and states, in their order.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Start {
+    /// The parameters.
+    pub parameters: Vec<f64>,
+    /// x(0)
+    pub initial: Vec<f64>,
+}
+
+/// Where a member of an ensemble ended.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Arrival {
+    /// Time.
+    pub t: f64,
+    /// State.
+    pub x: Vec<f64>,
+    /// Index of the region.
+    pub region: usize,
+    /// Counters.
+    pub statistics: Statistics,
+}
+
+/// What became of a member of an ensemble: where it came to, if it started at all, and what
+/// stopped it, if anything did.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Fate {
+    /// Where it came to.
+    pub arrival: Option<Arrival>,
+    /// What stopped it.
+    pub error: Option<Error>,
+}
+
+/// How an ensemble is computed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Crew {
+    /// Threads, or one for each core.
+    pub threads: Option<usize>,
+    /// Whether several trajectories are integrated in a register.
+    pub lanes: bool,
+}
+
 /// A transition of a run.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Crossed {
@@ -216,6 +257,14 @@ pub trait Problem: Send + Sync {
     /// # Errors
     /// Whatever stops the integration.
     fn integrate_silently(&self, run: &Run) -> Result<Finish, Error>;
+    /// Makes the run from many starts instead of its own, and tells `sink` of each in order.
+    fn integrate_all(
+        &self,
+        run: &Run,
+        crew: Crew,
+        starts: &mut dyn Iterator<Item = Start>,
+        sink: &mut dyn FnMut(Fate) -> ControlFlow<()>,
+    );
     /// A copy.
     fn duplicate(&self) -> Box<dyn Problem>;
 

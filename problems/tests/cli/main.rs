@@ -1,5 +1,6 @@
 //! The program `pws` as its user meets it.
 
+mod ensemble;
 mod refusals;
 mod run;
 mod show;

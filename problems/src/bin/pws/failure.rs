@@ -25,6 +25,14 @@ pub(crate) enum Failure {
         /// Why.
         error: io::Error,
     },
+    /// A file cannot be read.
+    #[error("cannot read {path}: {error}")]
+    Read {
+        /// The file.
+        path: String,
+        /// Why.
+        error: io::Error,
+    },
     /// The integration stopped before its end.
     #[error("{0}")]
     Stopped(String),
@@ -39,13 +47,23 @@ impl Failure {
         match self {
             Self::Stopped(_) => 1,
             Self::ReaderGone => 0,
-            Self::Request(_) | Self::Unknown(_) | Self::Write { .. } => 2,
+            Self::Request(_) | Self::Unknown(_) | Self::Write { .. } | Self::Read { .. } => 2,
         }
     }
 
     /// That `path` cannot be written.
     pub(crate) fn write(path: &Path, error: impl Into<io::Error>) -> Self {
         Self::Write {
+            path: path.display().to_string(),
+            error: error.into(),
+        }
+    }
+}
+
+impl Failure {
+    /// That `path` cannot be read.
+    pub(crate) fn read(path: &Path, error: impl Into<io::Error>) -> Self {
+        Self::Read {
             path: path.display().to_string(),
             error: error.into(),
         }

@@ -73,7 +73,11 @@ pub(crate) fn state(problem: &dyn Problem, name: &str) -> Result<usize, Failure>
 }
 
 /// Refuses a name that was given before.
-fn refuse_second(given: &mut Vec<String>, kind: &str, name: &str) -> Result<(), Failure> {
+pub(crate) fn refuse_second(
+    given: &mut Vec<String>,
+    kind: &str,
+    name: &str,
+) -> Result<(), Failure> {
     if given.iter().any(|before| before == name) {
         return Err(Failure::Request(format!(
             "{kind} `{name}` is given twice: name each once"
@@ -91,7 +95,11 @@ pub(crate) fn count(text: &str) -> Result<u64, String> {
     }
 }
 
-fn unknown<'a>(kind: &'static str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+pub(crate) fn unknown<'a>(
+    kind: &'static str,
+    name: &str,
+    known: impl Iterator<Item = &'a str>,
+) -> Failure {
     let known: Vec<&str> = known.collect();
     let closest = registry::closest(name, known.iter().copied());
     match (&closest, known.is_empty()) {

@@ -7,6 +7,7 @@
 mod bench;
 mod conserve;
 mod converge;
+mod ensemble;
 mod explain;
 mod failure;
 mod input;
@@ -46,6 +47,8 @@ enum Command {
     Explain(explain::Arguments),
     /// Integrate a problem; write points, transitions and pictures.
     Run(run::Arguments),
+    /// Integrate a problem from many initial states and parameters; write where they end.
+    Ensemble(ensemble::Arguments),
     /// Measure errors against the step size, before and after transitions.
     Converge(converge::Arguments),
     /// Measure how well every problem's conserved quantities are kept over a long run.
@@ -66,6 +69,7 @@ fn main() -> ExitCode {
         Command::Show(arguments) => show::show(arguments),
         Command::Explain(arguments) => explain::explain(arguments),
         Command::Run(arguments) => run::run(arguments),
+        Command::Ensemble(arguments) => ensemble::ensemble(arguments),
         Command::Converge(arguments) => converge::converge(arguments),
         Command::Conserve(arguments) => conserve::conserve(arguments),
         Command::Bench(arguments) => bench::bench(arguments),

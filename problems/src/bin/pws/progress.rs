@@ -17,3 +17,14 @@ pub(crate) fn bar(length: u64, steps: f64) -> ProgressBar {
         ProgressStyle::with_template("{bar:40} {percent:>3} % {elapsed} (left: {eta}) {msg}");
     ProgressBar::new(length).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
+
+/// A bar over so many pieces of work, or a count of them where that is not known.
+pub(crate) fn counter(count: Option<u64>) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    match count {
+        Some(count) => bar(count, f64::INFINITY),
+        None => ProgressBar::no_length(),
+    }
+}
