@@ -248,13 +248,22 @@ fn is_coarse<const N: usize>(displacement: &Vector<f64, N>, state: &State<N>) ->
     dot(displacement, displacement) > COARSE * COARSE * dot(&state.x, &state.x)
 }
 
+/// Of more states ψ has so many terms that their code in pairs of doubles is out of proportion:
+/// there ψ is evaluated in doubles, and the remainders enter by its slope.
+const MOST_IN_PAIRS: usize = 12;
+
 /// ψ at the state and time with their remainders.
-#[inline(always)]
+#[inline]
 fn in_pairs<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     flow: &F,
     time: Time,
     state: &State<N>,
 ) -> Vector<Double, M> {
+    if const { N > MOST_IN_PAIRS } {
+        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let drift = multiplier * remainder(flow, time, state);
+        return Vector::from_fn(|i, _| Double::sum(psi[i], drift[i]));
+    }
     let (t, x) = pairs(time, state);
     flow.over::<Double>().conserved(t, &x)
 }

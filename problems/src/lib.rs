@@ -6,7 +6,8 @@
 //!   [`entry`] for systems declared by `pws!`; [`method`]: the schemes by name;
 //! - [`mod@reference`]: solutions known to 32 digits; [`accurate`]: an independent integrator of
 //!   high order, for what the reference does not list;
-//! - [`convergence`], [`conservation`] and [`work_precision`]: the studies; [`picture`]: their figures;
+//! - [`convergence`], [`conservation`], [`work_precision`] and [`stress`]: the studies;
+//!   [`picture`]: their figures;
 //! - [`midpoint`] and [`perturbed`]: the explicit midpoint scheme and the perturbed locator
 //!   that Hirani, Wan & Wojtalewicz compare with.
 
@@ -21,6 +22,7 @@ pub mod picture;
 pub mod problem;
 pub mod reference;
 pub mod registry;
+pub mod stress;
 pub mod systems;
 pub mod truth;
 pub mod work_precision;

@@ -107,6 +107,9 @@ pub struct Ensemble<Sch> {
     lanes: bool,
 }
 
+/// Of larger systems the coefficients of several trajectories do not fit the fastest memory.
+const MOST_STATES: usize = 8;
+
 impl<Sch: Scheme> Ensemble<Sch> {
     /// An ensemble that is integrated by `scheme`.
     pub fn new(scheme: Sch) -> Self {
@@ -142,19 +145,19 @@ impl<Sch: Scheme> Ensemble<Sch> {
         sink: impl FnMut(usize, Outcome<Sys::Region, N>) -> ControlFlow<()>,
     ) -> usize {
         let members = members.into_iter();
-        let vectorised = match (self.lanes, self.scheme.in_lanes()) {
+        let vectorised = match (self.lanes && N <= MOST_STATES, self.scheme.in_lanes()) {
             (true, Some(taylor)) => Vectorised::of::<Sys, N>().map(|how| (how, taylor)),
             _ => None,
         };
         let least = vectorised.map_or(1, |_| WIDTH);
         let pool = self.pool(members.size_hint(), least);
         match vectorised {
-            Some((how, taylor)) => pool.run(
+            Some((how, taylor)) if const { N <= MOST_STATES } => pool.run(
                 members,
                 |batch| batch::run(how, &taylor, batch, t_end),
                 sink,
             ),
-            None => pool.run(members, |batch| self.one_by_one(batch, t_end), sink),
+            _ => pool.run(members, |batch| self.one_by_one(batch, t_end), sink),
         }
     }
 

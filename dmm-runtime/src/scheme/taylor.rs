@@ -76,15 +76,26 @@ impl Taylor {
         self.level_correction
     }
 
-    /// The order: where the cost of a unit of time is about least.
+    /// The order: where the cost of a unit of time is about least, of a few that straight-line
+    /// code is compiled for.
     pub(crate) fn order(&self) -> usize {
         match self.tolerance {
-            tolerance if tolerance >= 1e-4 => 8,
-            tolerance if tolerance >= 1e-7 => 12,
-            tolerance if tolerance >= 1e-10 => 16,
-            tolerance if tolerance >= 1e-13 => 20,
+            tolerance if tolerance >= 1e-7 => 10,
+            tolerance if tolerance >= 1e-11 => 16,
             _ => 24,
         }
+    }
+
+    /// The part of g's terms that g may be off by along a step.
+    pub(crate) fn undecided(&self) -> f64 {
+        /// Errors of the state enter g by its gradient.
+        const MARGIN: f64 = 8.0;
+        MARGIN * self.tolerance
+    }
+
+    /// The part of a step whose error is below rounding.
+    fn finest(&self) -> f64 {
+        (f64::EPSILON / self.tolerance).powf(1.0 / self.order() as f64)
     }
 
     /// The part of the radius of convergence that a step takes.
@@ -99,6 +110,8 @@ pub struct Progress {
     pub(crate) end: f64,
     /// The part of the radius of convergence that a step takes.
     pub(crate) fraction: f64,
+    /// The part of such a step whose error is below rounding.
+    pub(crate) finest: f64,
     pub(crate) decay: Decay,
     /// The size of the step before, or 0.
     pub(crate) step: f64,
@@ -202,6 +215,7 @@ impl Drive for Taylor {
             end: t_end,
             fraction: self.fraction(),
             decay: Decay::new(self.fraction()),
+            finest: self.finest(),
             step: 0.0,
             window: (t0, 0),
         }

@@ -136,10 +136,10 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
     /// Each component counts relative to |x₀| + |x₁| h with the step h `before`, so that neither
     /// its zeros nor its unit matter; where there was none, relative to the largest component.
     #[inline(always)]
-    pub(crate) fn step(&self, fraction: f64, before: f64) -> f64 {
+    pub(crate) fn step(&mut self, fraction: f64, before: f64) -> f64 {
         let order = self.decisive();
         if before == 0.0 {
-            return fraction * self.first_radius();
+            return self.first_step(fraction);
         }
         let (mut last, mut second) = (0.0f64, 0.0f64);
         for c in self.coefficients() {
@@ -147,6 +147,9 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
             let scale = 1.0 / size.max(f64::MIN_POSITIVE);
             last = last.max(c[order].abs() * scale);
             second = second.max(c[order - 1].abs() * scale);
+        }
+        if !(last > SMALLEST && last < LARGEST) {
+            return self.first_step(fraction);
         }
         fraction * radius(order, last, second)
     }
@@ -167,20 +170,49 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
         }
     }
 
-    /// The radius of convergence, relative to the largest component or, where they vanish, to
-    /// what the field makes of them in a unit of time.
+    /// The step without one before, or where coefficients leave the range of doubles.
+    ///
+    /// They count relative to the largest component or, where all vanish, to what the field
+    /// makes of them in a unit of time. Where the unit of time is so far from that of the
+    /// solution that they overflow or underflow, the orders below decide on a shorter step, and
+    /// those that are lost are left out. Coefficients that end are those of a polynomial.
     #[cold]
-    fn first_radius(&self) -> f64 {
+    fn first_step(&mut self, fraction: f64) -> f64 {
         let largest = |k: usize| {
             let coefficients = self.coefficients().iter();
-            coefficients.fold(0.0f64, |largest, c| largest.max(c[k].abs()))
+            // a NaN must not be lost
+            coefficients.fold(0.0f64, |largest, c| match c[k].abs() {
+                size if size <= largest => largest,
+                size => size,
+            })
         };
-        let size = match largest(0) > 0.0 {
-            true => largest(0),
-            false => largest(1).max(f64::MIN_POSITIVE),
+        let scale = 1.0
+            / if largest(0) > 0.0 {
+                largest(0)
+            } else {
+                largest(1).max(f64::MIN_POSITIVE)
+            };
+        let order = self.order();
+        let in_range = |k: usize| (SMALLEST..LARGEST).contains(&(largest(k) * scale));
+        let ends = (2..=order).rev().find(|&k| largest(k) != 0.0);
+        let is_polynomial = ends.is_none_or(|k| k < order && largest(k) * scale > FADING);
+        if is_polynomial || in_range(order) {
+            let order = self.decisive();
+            let step = radius(order, largest(order) * scale, largest(order - 1) * scale);
+            return fraction * step;
+        }
+        let Some(usable) = (2..order)
+            .find(|&k| !in_range(k + 1))
+            .filter(|&k| in_range(k))
+        else {
+            return f64::NAN;
         };
-        let order = self.decisive();
-        radius(order, largest(order) / size, largest(order - 1) / size)
+        let step = radius(usable, largest(usable) * scale, largest(usable - 1) * scale);
+        for c in &mut self.solution.as_mut()[..N] {
+            c[usable + 1..].fill(0.0);
+        }
+        // the same tolerance by a lower order
+        fraction.powf(order as f64 / usable as f64) * step
     }
 
     /// xₖ by component.
@@ -193,12 +225,35 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
     #[inline(always)]
     pub(crate) fn increment(&self, h: f64) -> Vector<f64, N> {
         let mut sum = Vector::<f64, N>::zeros();
+        if h > LONGEST {
+            return self.long_increment(h);
+        }
         for (sum, series) in sum.iter_mut().zip(self.coefficients()) {
             *sum = increment(series, h);
         }
         sum
     }
+
+    /// The same where powers of h overflow.
+    #[cold]
+    fn long_increment(&self, h: f64) -> Vector<f64, N> {
+        let mut coefficients = self.coefficients().iter();
+        Vector::from_fn(|_, _| {
+            let Some([_, c @ ..]) = coefficients.next().map(|c| c.as_slice()) else {
+                return f64::NAN;
+            };
+            h * c.iter().rev().fold(0.0, |sum, c| sum * h + c)
+        })
+    }
 }
+
+/// Coefficients relative to x₀ beyond these are about to leave the range of doubles.
+const SMALLEST: f64 = 1e-280;
+const LARGEST: f64 = 1e280;
+/// Powers of this up to the highest order are in range.
+const LONGEST: f64 = 1e12;
+/// The last coefficient of a polynomial is larger; that of a series that underflows is not.
+const FADING: f64 = 1e-200;
 
 /// The smaller of cₖ^(−1/k) for the last two coefficients.
 #[inline(always)]

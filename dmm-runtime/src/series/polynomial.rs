@@ -93,6 +93,25 @@ pub(crate) fn first_root(coefficients: &[f64], h: f64, rounding: f64) -> Roots {
     }
 }
 
+/// Whether p, positive at 0, comes closer to zero than `band` in (0, `h`] without falling through
+/// all of the band: it returns from there, or may have been elsewhere.
+pub(crate) fn dips(coefficients: &[f64], h: f64, band: f64) -> bool {
+    let mut shifted = [0.0; MOST];
+    let count = coefficients.len().min(MOST);
+    let shifted = &mut shifted[..count];
+    let mut falls_below = |level: f64| {
+        shifted.copy_from_slice(&coefficients[..count]);
+        shifted[0] -= level;
+        shifted[0] <= 0.0 || first_root(shifted, h, 0.0).first.is_some()
+    };
+    if !falls_below(band) || falls_below(-band) {
+        return false;
+    }
+    let (end, slope) = value_and_slope(coefficients, h);
+    // on its way through the band at the end
+    !(end.abs() <= band && slope < 0.0)
+}
+
 /// The root in an interval in which p changes its sign from positive to negative, by Newton's
 /// method safeguarded by bisection.
 pub(crate) fn root(coefficients: &[f64], lower: f64, upper: f64) -> f64 {
@@ -135,7 +154,8 @@ fn bernstein(coefficients: &[f64], h: f64) -> Bernstein {
     let mut values = [0.0; MOST];
     let mut factor = 1.0;
     for (j, (value, &c)) in values.iter_mut().zip(coefficients).enumerate() {
-        *value = c * factor;
+        // the power may have overflowed where there is no coefficient
+        *value = if c == 0.0 { 0.0 } else { c * factor };
         let j = j as f64;
         factor *= h * (j + 1.0) / (degree - j).max(1.0);
     }
@@ -306,6 +326,18 @@ mod tests {
                 assert!(found.touches > 0);
             }
         }
+    }
+
+    #[test]
+    fn what_returns_from_a_band_dips() {
+        for (lowest, expected) in [(2e-3, false), (5e-4, true), (-5e-4, true), (-2e-3, false)] {
+            let mut coefficients = with_roots(&[0.3, 0.3]);
+            coefficients[0] += lowest;
+            assert_eq!(dips(&coefficients, 1.0, 1e-3), expected, "{lowest}");
+        }
+        // straight through, and not yet there
+        assert!(!dips(&with_roots(&[0.3]), 1.0, 1e-3));
+        assert!(!dips(&with_roots(&[1.0001]), 1.0, 1e-3));
     }
 
     #[test]

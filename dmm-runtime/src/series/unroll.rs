@@ -94,10 +94,8 @@ impl Unroll for Straight {
     #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
         match order {
-            8 => choice.with::<9>(),
-            12 => choice.with::<13>(),
+            10 => choice.with::<11>(),
             16 => choice.with::<17>(),
-            20 => choice.with::<21>(),
             _ => choice.with::<25>(),
         }
     }

@@ -48,7 +48,7 @@ impl Double {
 
     /// a + b exactly.
     #[inline]
-    pub(super) fn sum(a: f64, b: f64) -> Self {
+    pub(crate) fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         let b_part = high - a;
         let a_part = high - b_part;

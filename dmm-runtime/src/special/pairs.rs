@@ -184,7 +184,7 @@ impl Scalar for Double {
 
     fn exp(self) -> Self {
         let k = (self.high * LOG2_E).round();
-        if !(k.abs() < 1020.0) {
+        if k.is_nan() || k.abs() >= 1020.0 {
             return Self::from(self.high.exp());
         }
         let r = self - Self::from(k) * Self::new(LN_2, LN_2_LOW);

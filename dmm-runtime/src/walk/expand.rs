@@ -8,7 +8,7 @@ use crate::observer::{Observer, Point};
 use crate::scalar::Scalar;
 use crate::scheme::Taylor;
 use crate::series::jet::Jet;
-use crate::series::polynomial::{Roots, first_root, root};
+use crate::series::polynomial::{Roots, dips, first_root, root};
 use crate::state::State;
 use crate::system::{Boundary, Flow, Side, System};
 use crate::time::Time;
@@ -69,16 +69,29 @@ where
                 return Ended::At(SegmentEnd::Finished);
             }
             let wanted = jet.step(fraction, here.before);
-            let Some((tau, time)) = step_to::<N, M, F>(here.time, wanted, (remaining, end)) else {
-                return Ended::Not(wanted);
-            };
-            let mut state = here.state.after(&jet.increment(tau));
-            if !sides::<N, M, F>().is_empty() {
-                let step = (tau, time, &state);
-                if let Some(found) = self.look_ahead::<P, M, F>(flow, jet, here, step, fresh) {
-                    return Ended::Before { found, tau, level };
+            let mut share = 1.0;
+            let (tau, time, mut state) = loop {
+                let size = share * wanted;
+                let Some((tau, time)) = step_to::<N, M, F>(here.time, size, (remaining, end))
+                else {
+                    return Ended::Not(size);
+                };
+                let state = here.state.after(&jet.increment(tau));
+                if sides::<N, M, F>().is_empty() {
+                    break (tau, time, state);
                 }
-            }
+                let band = if share < 1.0 {
+                    0.0
+                } else {
+                    self.scheme.undecided()
+                };
+                let step = (tau, time, &state);
+                match self.look_ahead::<P, M, F>(flow, jet, here, step, (fresh, band)) {
+                    Ahead::Free => break (tau, time, state),
+                    Ahead::Crossing(found) => return Ended::Before { found, tau, level },
+                    Ahead::Undecided => share = self.progress.finest,
+                }
+            };
             if self.observer.next_output().is_some() {
                 self.outputs_along::<P, M, F>(flow, &level, jet, here, (tau, time));
             }
@@ -101,7 +114,8 @@ where
         }
     }
 
-    /// The first crossing of a step that ends at `state`, if there is one.
+    /// The first crossing of a step that ends at `state`, if there is one. What comes within
+    /// the part `band` of g's terms of an interface, and returns, is left undecided.
     #[inline(always)]
     fn look_ahead<const P: usize, const M: usize, F: Flow<f64, N, M>>(
         &mut self,
@@ -109,8 +123,8 @@ where
         jet: &mut Jet<F, N, M, P>,
         here: &Here<N>,
         (tau, time, state): (f64, Time, &State<N>),
-        fresh: Option<usize>,
-    ) -> Option<Found> {
+        (fresh, band): (Option<usize>, f64),
+    ) -> Ahead {
         let field = flow.vector_field(time.value, &state.x);
         let glimpse = Glimpse {
             tau,
@@ -141,9 +155,10 @@ where
                 }
             }
         });
-        match near {
-            true => self.first::<P, M, F>(flow, jet, here, tau, fresh),
-            false => once,
+        match (near, once) {
+            (true, _) => self.first::<P, M, F>(flow, jet, here, tau, (fresh, band)),
+            (false, Some(found)) => Ahead::Crossing(found),
+            (false, None) => Ahead::Free,
         }
     }
 
@@ -156,8 +171,8 @@ where
         jet: &mut Jet<F, N, M, P>,
         here: &Here<N>,
         tau: f64,
-        fresh: Option<usize>,
-    ) -> Option<Found> {
+        (fresh, band): (Option<usize>, f64),
+    ) -> Ahead {
         let (t, x) = (here.time.value, &here.state.x);
         jet.expand_switching(flow, t);
         let mut first: Option<Found> = None;
@@ -165,17 +180,22 @@ where
             let sign = side.sign();
             let series = jet.switching(interface).map(|c| sign * c);
             if !series.iter().all(|c| c.is_finite()) {
-                return None;
+                // and so will the state be that the step leads to
+                return Ahead::Free;
             }
             let size = flow.boundary().switching_size(interface, t, x);
             let noise = NOISE * f64::ROUNDING * size;
             let on_it = fresh == Some(interface) || (series[0] <= noise && series[1] > 0.0);
             // on the interface zero is a root, which is divided off
-            let (series, noise) = match on_it {
-                true => (&series[1..], noise / tau),
-                false => (&series[..], noise),
+            let (series, unit) = match on_it {
+                true => (&series[1..], 1.0 / tau),
+                false => (&series[..], 1.0),
             };
+            let (noise, band) = (noise * unit, band * size * unit);
             let horizon = first.as_ref().map_or(tau, |first| first.elapsed);
+            if band > noise && dips(series, horizon, band) {
+                return Ahead::Undecided;
+            }
             let Roots {
                 first: found,
                 touches,
@@ -189,7 +209,7 @@ where
                 });
             }
         }
-        first
+        first.map_or(Ahead::Free, Ahead::Crossing)
     }
 
     /// Serves the output times of a step over `tau` that ends at `end`.
@@ -252,6 +272,17 @@ impl<const N: usize> Here<N> {
             region,
         }
     }
+}
+
+/// What a step meets.
+enum Ahead {
+    /// No interface.
+    Free,
+    /// An interface.
+    Crossing(Found),
+    /// It comes so close to an interface that a step over a smaller part of the radius of
+    /// convergence, whose error is below rounding, has to decide.
+    Undecided,
 }
 
 /// How the steps ended.

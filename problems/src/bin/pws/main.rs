@@ -20,6 +20,7 @@ mod progress;
 mod run;
 mod scheme;
 mod show;
+mod stress;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -55,6 +56,8 @@ enum Command {
     Conserve(conserve::Arguments),
     /// Measure the time of every scheme against its final error.
     Bench(bench::Arguments),
+    /// Push every scheme to the edge of what it can do.
+    Stress(stress::Arguments),
     /// Reproduce Figs 2-8 of Hirani, Wan & Wojtalewicz.
     Paper(paper::Arguments),
 }
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
         Command::Converge(arguments) => converge::converge(arguments),
         Command::Conserve(arguments) => conserve::conserve(arguments),
         Command::Bench(arguments) => bench::bench(arguments),
+        Command::Stress(arguments) => stress::stress(arguments),
         Command::Paper(arguments) => paper::paper(arguments),
     };
     match result {

@@ -4,6 +4,14 @@ use std::io::IsTerminal;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+/// Says what is being done, on a terminal.
+pub(crate) fn spinner() -> ProgressBar {
+    match std::io::stderr().is_terminal() {
+        true => ProgressBar::new_spinner(),
+        false => ProgressBar::hidden(),
+    }
+}
+
 /// Work of fewer steps is over before one could look.
 const LONG: f64 = 3e6;
 

@@ -1,0 +1,281 @@
+//! Failures on purpose: of the implicit solve, of the locator, of formulas. Each has to end in
+//! its typed error, with everything that was integrated before it.
+
+use dmm_runtime::{
+    Correction, Crossing, Error, Flow, Integrator, Interrupted, Located, Locator, NewtonLocator,
+    OneStep, Scheme, Statistics, Step, StepFailure, Symmetric, System, Taylor, Vector, pws,
+};
+
+use super::{Extent, Report, Row, Verdict, name};
+use crate::systems::Elliptic;
+
+pws! {
+    /// ẋ = x², which is infinite at t = 1/x(0).
+    pub system Blowup {
+        state x;
+        der(x) = x^2;
+    }
+}
+
+pws! {
+    /// Falls at a steady rate to where ln x ends.
+    pub system Logarithm {
+        state x, y;
+        der(x) = -1;
+        der(y) = ln(x);
+    }
+}
+
+pws! {
+    /// Both fields point at the interface where y > 0.
+    pub system Stuck {
+        state x, y;
+        interface wall = x;
+        region right where wall > 0 {
+            der(x) = -1;
+            der(y) = 0;
+        }
+        region left where wall < 0 {
+            der(x) = y;
+            der(y) = 0;
+        }
+    }
+}
+
+pws! {
+    /// The field beyond the interface is tangential to it where it is met.
+    pub system Tangent {
+        state x, y;
+        interface wall = x;
+        region right where wall > 0 {
+            der(x) = -1;
+            der(y) = 0;
+        }
+        region left where wall < 0 {
+            der(x) = y - 1;
+            der(y) = x;
+        }
+    }
+}
+
+const STEP_SIZE: f64 = 0.01;
+/// When the injected failures begin.
+const FROM: f64 = 1.0;
+const T_END: f64 = 3.0;
+
+pub(super) fn study(_extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+    progress("solvers and locators");
+    let mut rows = vec![
+        solver(
+            "no convergence",
+            StepFailure::NoConvergence {
+                residual: 1.0,
+                iterations: 30,
+            },
+        ),
+        solver("no finite value", StepFailure::NotFinite),
+        silent_solver(),
+    ];
+    for (what, locator) in [
+        ("locator finds nothing", Faulty::Nothing),
+        ("locator returns no number", Faulty::NotFinite),
+    ] {
+        rows.push(located(what, locator));
+    }
+    progress("formulas");
+    for tolerance in [1e-3, 1e-12] {
+        let scheme = Taylor::tolerance(tolerance);
+        formulas(&mut rows, &format!("Taylor {tolerance:e}"), &scheme);
+    }
+    formulas(&mut rows, "Symmetric", &Symmetric::step_size(STEP_SIZE));
+    Report {
+        rows,
+        panels: Vec::new(),
+    }
+}
+
+/// [`Symmetric`], until it fails.
+#[derive(Clone)]
+struct Failing {
+    inner: Symmetric,
+    failure: Option<StepFailure>,
+}
+
+impl OneStep for Failing {
+    type Memory<const N: usize> = ();
+
+    fn step_size(&self) -> f64 {
+        self.inner.step_size()
+    }
+
+    fn corrects_level(&self) -> bool {
+        true
+    }
+
+    fn begin<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        _flow: &F,
+        _t: f64,
+        _x: &Vector<f64, N>,
+    ) {
+    }
+
+    fn step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        step: &Step<'_, F, N>,
+        statistics: &mut Statistics,
+    ) -> Result<Vector<f64, N>, StepFailure> {
+        match self.failure {
+            _ if step.t0 < FROM => self.inner.step(step, statistics),
+            Some(failure) => Err(failure),
+            // a solver that does not notice
+            None => Ok(Vector::from_element(f64::NAN)),
+        }
+    }
+
+    fn correction<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        step: &Step<'_, F, N>,
+        increment: &Vector<f64, N>,
+    ) -> Option<Correction<N>> {
+        self.inner.correction(step, increment)
+    }
+}
+
+/// A locator that cannot do what it should.
+#[derive(Clone, Copy)]
+enum Faulty {
+    Nothing,
+    NotFinite,
+}
+
+impl Locator for Faulty {
+    fn locate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        _crossing: &Crossing<'_, Sch, F, N>,
+        _statistics: &mut Statistics,
+    ) -> Option<Located<N>> {
+        match self {
+            Self::Nothing => None,
+            Self::NotFinite => Some(Located {
+                elapsed: f64::NAN,
+                increment: Vector::from_element(f64::NAN),
+            }),
+        }
+    }
+}
+
+fn solver(what: &str, failure: StepFailure) -> Row {
+    let expected = match failure {
+        StepFailure::NoConvergence { .. } => "Newton failed",
+        StepFailure::NotFinite => "left the domain",
+    };
+    let scheme = Failing {
+        inner: Symmetric::step_size(STEP_SIZE),
+        failure: Some(failure),
+    };
+    elliptic(&format!("solver: {what}"), expected, scheme, NewtonLocator)
+}
+
+fn silent_solver() -> Row {
+    let scheme = Failing {
+        inner: Symmetric::step_size(STEP_SIZE),
+        failure: None,
+    };
+    elliptic(
+        "solver: NaN in silence",
+        "left the domain",
+        scheme,
+        NewtonLocator,
+    )
+}
+
+fn located(what: &str, locator: Faulty) -> Row {
+    elliptic(
+        what,
+        "location failed",
+        Symmetric::step_size(STEP_SIZE),
+        locator,
+    )
+}
+
+/// A run of `elliptic` that has to stop with the expected error, with the points until then.
+fn elliptic<Sch: Scheme, Loc: Locator>(
+    what: &str,
+    expected: &str,
+    scheme: Sch,
+    locator: Loc,
+) -> Row {
+    let system = Elliptic::default();
+    let result = Integrator::new(&system, scheme)
+        .locator(locator)
+        .initial(0.0, [-1.0, -1.0])
+        .run_until(T_END);
+    judge(what, "Symmetric", expected, result)
+}
+
+/// Formulas that have no value, and fields that do not say how to go on.
+fn formulas<Sch: Scheme>(rows: &mut Vec<Row>, name: &str, scheme: &Sch) {
+    let system = Blowup {};
+    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0]);
+    rows.push(judge(
+        "blow-up at t = 1",
+        name,
+        "left the domain",
+        result.run_until(T_END),
+    ));
+    let system = Logarithm {};
+    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0, 0.0]);
+    rows.push(judge(
+        "logarithm ends at t = 1",
+        name,
+        "left the domain",
+        result.run_until(T_END),
+    ));
+    let system = Stuck {};
+    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0, 1.0]);
+    rows.push(judge(
+        "sliding from t = 1",
+        name,
+        "sliding",
+        result.run_until(T_END),
+    ));
+    let system = Tangent {};
+    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0, 1.0]);
+    rows.push(judge(
+        "tangential at t = 1",
+        name,
+        "tangential",
+        result.run_until(T_END),
+    ));
+}
+
+/// All these runs have to be refused, at t = 1 or at the first step or crossing after it, with
+/// the solution that was there before.
+fn judge<Sys: System<N>, Sch: Scheme, const N: usize>(
+    what: &str,
+    scheme: &str,
+    expected: &str,
+    result: Result<dmm_runtime::Solution<Sys, Sch, N>, Interrupted<Sys, Sch, N>>,
+) -> Row {
+    let interrupted = match result {
+        Ok(_) => return Row::new(what, scheme, Verdict::Wrong, "integrated to the end"),
+        Err(interrupted) => interrupted,
+    };
+    let found = match interrupted.error() {
+        // where a solution ends is met in one way or another
+        Error::NewtonFailed { .. } if what.starts_with("blow-up") => expected,
+        error => name(error),
+    };
+    let reached = interrupted.solution().last();
+    let reached = reached.map_or(f64::NAN, |point| point.t);
+    // the last points of a solution that ends at 1 may be a step before it or after
+    let holds = found == expected && (0.8..=1.5).contains(&reached);
+    let finding = format!("{} at t = {reached:.3}", name(interrupted.error()));
+    let verdict = if holds {
+        Verdict::Refused
+    } else {
+        Verdict::Wrong
+    };
+    Row::new(what, scheme, verdict, finding)
+}

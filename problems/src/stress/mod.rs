@@ -1,0 +1,257 @@
+//! Stress: runs at the edge of what a scheme can do. What survives keeps what it promises, what
+//! cannot be integrated is refused by a typed error, and nothing is wrong in silence.
+//!
+//! One file a study, each a function that makes its runs, judges them by bounds with a reason,
+//! and draws what it saw.
+
+mod failures;
+mod growth;
+mod long;
+mod scales;
+mod step_sizes;
+mod stiffness;
+mod systems;
+mod tangency;
+mod transitions;
+
+use dmm_runtime::Error;
+
+use crate::method::{Control, Method};
+use crate::picture::Panel;
+use crate::problem::{Problem, Run};
+
+/// How a case ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// It was integrated, within the bounds.
+    Survived,
+    /// It was stopped by a typed error, or told as undecided.
+    Refused,
+    /// It was integrated beyond the bounds, and nothing was said.
+    Wrong,
+}
+
+impl Verdict {
+    /// [`Verdict::Survived`] or [`Verdict::Wrong`].
+    fn within(bounds: bool) -> Self {
+        if bounds { Self::Survived } else { Self::Wrong }
+    }
+
+    /// In a word.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Survived => "survived",
+            Self::Refused => "refused",
+            Self::Wrong => "WRONG",
+        }
+    }
+}
+
+/// A case and what became of it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Row {
+    /// What was integrated.
+    pub case: String,
+    /// By which scheme.
+    pub scheme: String,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// The figures.
+    pub finding: String,
+}
+
+impl Row {
+    fn new(
+        case: impl Into<String>,
+        scheme: impl Into<String>,
+        verdict: Verdict,
+        finding: impl Into<String>,
+    ) -> Self {
+        Self {
+            case: case.into(),
+            scheme: scheme.into(),
+            verdict,
+            finding: finding.into(),
+        }
+    }
+
+    /// A run that was stopped.
+    fn refused(case: impl Into<String>, scheme: impl Into<String>, error: &Error) -> Self {
+        Self::new(case, scheme, Verdict::Refused, name(error))
+    }
+}
+
+/// What a study found.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Report {
+    /// Its cases.
+    pub rows: Vec<Row>,
+    /// Its pictures.
+    pub panels: Vec<Panel>,
+}
+
+/// How much is done.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Extent {
+    /// Everything.
+    Full,
+    /// The same in a few seconds.
+    Brief,
+}
+
+impl Extent {
+    /// A number that depends on it.
+    fn of<T>(self, full: T, brief: T) -> T {
+        match self {
+            Self::Full => full,
+            Self::Brief => brief,
+        }
+    }
+}
+
+/// A study.
+#[derive(Clone, Copy, Debug)]
+pub struct Study {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// What it does.
+    pub title: &'static str,
+    study: fn(Extent, &mut dyn FnMut(&str)) -> Report,
+}
+
+impl Study {
+    /// Makes the study; `progress` is told of each case before it begins.
+    pub fn run(&self, extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+        (self.study)(extent, progress)
+    }
+}
+
+/// All studies.
+pub const STUDIES: [Study; 7] = [
+    Study {
+        name: "long",
+        title: "conservation within segments over up to 10⁹ steps",
+        study: long::study,
+    },
+    Study {
+        name: "transitions",
+        title: "levels over up to 10⁶ transitions",
+        study: transitions::study,
+    },
+    Study {
+        name: "step-sizes",
+        title: "step sizes from the limit of stability to 10⁻⁹",
+        study: step_sizes::study,
+    },
+    Study {
+        name: "scales",
+        title: "states from 10⁻¹⁵⁰ to 10¹⁵⁰",
+        study: scales::study,
+    },
+    Study {
+        name: "stiffness",
+        title: "ratios of stiffness up to 10⁸",
+        study: stiffness::study,
+    },
+    Study {
+        name: "tangency",
+        title: "crossings at angles from 10⁻¹ to 10⁻¹²",
+        study: tangency::study,
+    },
+    Study {
+        name: "failures",
+        title: "injected failures of solvers, locators and formulas",
+        study: failures::study,
+    },
+];
+
+/// A scheme at a setting.
+#[derive(Clone, Copy, Debug)]
+struct Setting {
+    name: &'static str,
+    method: Method,
+    step_size: f64,
+    tolerance: f64,
+}
+
+impl Setting {
+    /// A scheme with uniform steps.
+    const fn steps(name: &'static str, method: Method, step_size: f64) -> Self {
+        Self {
+            name,
+            method,
+            step_size,
+            tolerance: f64::NAN,
+        }
+    }
+
+    /// A scheme that chooses its steps.
+    const fn tolerance(name: &'static str, method: Method, tolerance: f64) -> Self {
+        Self {
+            name,
+            method,
+            // for runs whose length is given in steps
+            step_size: 1.0,
+            tolerance,
+        }
+    }
+
+    fn has_uniform_steps(&self) -> bool {
+        matches!(self.method.control(), Control::StepSize { .. })
+    }
+
+    /// The default run of a problem at this setting.
+    fn run(&self, problem: &dyn Problem) -> Run {
+        Run {
+            method: self.method,
+            step_size: self.step_size,
+            tolerance: self.tolerance,
+            ..problem.default_run()
+        }
+    }
+}
+
+/// Every scheme, at settings for problems whose time scale is about 1; those that choose their
+/// steps also at a loose tolerance.
+const SETTINGS: [Setting; 7] = [
+    Setting::steps("Symmetric", Method::Symmetric, 0.02),
+    Setting::steps("Composed<4>", Method::Composed4, 0.04),
+    Setting::steps("Composed<6>", Method::Composed6, 0.08),
+    Setting::steps("Composed<8>", Method::Composed8, 0.08),
+    Setting::tolerance("Taylor 1e-3", Method::Taylor, 1e-3),
+    Setting::tolerance("Taylor 1e-12", Method::Taylor, 1e-12),
+    Setting::tolerance("Best 1e-12", Method::Best, 1e-12),
+];
+
+/// The kind of an error.
+fn name(error: &Error) -> &'static str {
+    match error {
+        Error::InvalidInput { .. } => "invalid input",
+        Error::NewtonFailed { .. } => "Newton failed",
+        Error::LeftDomain { .. } => "left the domain",
+        Error::Sliding { .. } => "sliding",
+        Error::Tangential { .. } => "tangential",
+        Error::AmbiguousStart { .. } => "ambiguous start",
+        Error::NoRegion { .. } => "no region",
+        Error::LocationFailed { .. } => "location failed",
+        Error::Zeno { .. } => "Zeno",
+        Error::OutOfRange { .. } => "out of range",
+        _ => "other",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_wrong_in_silence() {
+        for study in STUDIES {
+            let report = study.run(Extent::Brief, &mut |_| {});
+            assert!(report.rows.len() > 1, "{}", study.name);
+            for row in report.rows {
+                assert_ne!(row.verdict, Verdict::Wrong, "{}: {row:?}", study.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Scales: the same orbit with states from 10⁻¹⁵⁰ to 10¹⁵⁰ times as large.
+//!
+//! The oscillator is linear: a state s times as large moves in the same time. With the force
+//! −q³ it moves s times as fast, and ψ is s⁴ times as large; below s = 10⁻⁷⁰ it would be lost to
+//! underflow.
+
+use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
+use super::{Extent, Report, Row, SETTINGS, Setting, Verdict};
+use crate::entry::Entry;
+use crate::problem::{OutputTimes, Problem, Run, Sink};
+use dmm_runtime::Error;
+
+/// The states agree to so many units in the last place of the largest.
+const BOUND: f64 = 1e-13;
+const T_END: f64 = 20.0;
+
+/// A problem, the power of the scale that the rate of its motion goes with, and the decades
+/// over which it is scaled.
+struct Case {
+    problem: fn() -> Box<dyn Problem>,
+    speed: i32,
+    decades: (i32, i32),
+}
+
+const CASES: [Case; 2] = [
+    Case {
+        problem: || Entry::<Circle, 2>::boxed(&CIRCLE),
+        speed: 0,
+        decades: (-150, 150),
+    },
+    Case {
+        problem: || Entry::<Quartic, 2>::boxed(&QUARTIC),
+        speed: 1,
+        decades: (-70, 150),
+    },
+];
+
+pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+    let stride = extent.of(5, 25);
+    let mut report = Report::default();
+    for case in CASES {
+        for setting in SETTINGS {
+            progress(&format!(
+                "{}, {}",
+                (case.problem)().card().name,
+                setting.name
+            ));
+            report.rows.push(row(&case, &setting, stride));
+        }
+    }
+    report
+}
+
+fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
+    let name = (case.problem)().card().name;
+    let (first, last) = case.decades;
+    let what = format!("{name}, states times 1e{first} to 1e{last}");
+    let plain = match scaled(case, setting, 0) {
+        Ok(plain) => plain,
+        Err(error) => return Row::refused(what, setting.name, &error),
+    };
+    let mut worst: f64 = 0.0;
+    let mut refused = Vec::new();
+    for decade in (first..=last).step_by(stride) {
+        match scaled(case, setting, decade) {
+            Ok(state) => worst = worst.max(distance(&state, &plain)),
+            Err(error) => refused.push((decade, super::name(&error))),
+        }
+    }
+    let mut finding = format!("the same to {worst:.1e}");
+    if let (Some(first), Some(last)) = (refused.first(), refused.last()) {
+        finding.push_str(&format!(
+            "; refused from 1e{} to 1e{}: {}",
+            first.0, last.0, first.1
+        ));
+    }
+    Row::new(what, setting.name, Verdict::within(worst <= BOUND), finding)
+}
+
+/// The largest difference of components; infinite if one is not a number.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, |worst: f64, d| {
+        if d.is_nan() {
+            f64::INFINITY
+        } else {
+            worst.max(d)
+        }
+    })
+}
+
+/// The last state.
+struct Last(Vec<f64>);
+
+impl Sink for Last {
+    fn output(&mut self, _t: f64, x: &[f64]) {
+        self.0 = x.to_vec();
+    }
+
+    fn wants_records(&self) -> bool {
+        false
+    }
+}
+
+/// The final state of the orbit that is 10^`decade` times as large (to the next power of two,
+/// by which products are exact), divided by its scale.
+fn scaled(case: &Case, setting: &Setting, decade: i32) -> Result<Vec<f64>, Error> {
+    let exponent = (f64::from(decade) * std::f64::consts::LOG2_10).round();
+    let scale = exponent.exp2();
+    let faster = scale.powi(case.speed);
+    let mut problem = (case.problem)();
+    problem.set_parameter("c", 0.5 * scale);
+    let t_end = T_END / faster;
+    let [q, p] = [0.25, 0.75];
+    let run = Run {
+        step_size: setting.step_size / faster,
+        initial: vec![q * scale, p * scale * faster],
+        t_end,
+        output_times: OutputTimes::At(vec![t_end]),
+        ..setting.run(&*problem)
+    };
+    let mut last = Last(vec![f64::NAN; 2]);
+    problem.integrate(&run, &mut last)?;
+    Ok(vec![last.0[0] / scale, last.0[1] / (scale * faster)])
+}

@@ -1,0 +1,203 @@
+//! Levels over many transitions: an error in the location of a crossing is one of the level
+//! that follows, and must not add up.
+//!
+//! The orbit of `elliptic` is closed; that of the star is chaotic, with the same energy on both
+//! sides of the axis.
+
+use std::ops::ControlFlow;
+
+use dmm_runtime::{Integrator, Observer, Taylor, Transition};
+use num_rational::BigRational;
+use num_traits::ToPrimitive;
+
+use super::growth::Growth;
+use super::systems::{WARPED, Warped};
+use super::{Extent, Report, Row, SETTINGS, Setting, Verdict};
+use crate::entry::Entry;
+use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
+use crate::problem::{Crossed, Problem, Record, Run, Sink};
+use crate::reference::Reference;
+use crate::registry::find;
+use crate::systems::Elliptic;
+use crate::systems::elliptic::EllipticRegion;
+
+/// Levels are of the order of 1: a few units in the last place, and what a random walk of
+/// roundings makes of them.
+fn bound(transitions: f64) -> f64 {
+    16.0 * f64::EPSILON * transitions.sqrt()
+}
+/// Where the state at a transition is pinned with its remainder.
+const PINNED: f64 = 1e-28;
+
+pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+    let transitions = extent.of(1_000_000, 500);
+    let mut report = Report::default();
+    let problems: [(&str, Box<dyn Problem>); 2] = [
+        (
+            "closed orbit",
+            match find("elliptic") {
+                Ok(problem) => problem,
+                Err(_) => return report,
+            },
+        ),
+        ("open orbit", Entry::<Warped, 4>::boxed(&WARPED)),
+    ];
+    for (kind, problem) in problems {
+        let mut panel = Panel::new(
+            format!("{}: {kind}", problem.card().name),
+            Axis::new("transitions", Scale::Decades),
+            Axis::new("largest |ψ_ref − exact level| so far", Scale::Decades),
+        );
+        for (k, setting) in SETTINGS.into_iter().enumerate() {
+            progress(&format!("{}, {}", problem.card().name, setting.name));
+            let (row, growth) = measure(&*problem, &setting, transitions);
+            report.rows.push(row);
+            let label = Some(setting.name.to_owned());
+            panel.curve(
+                label,
+                growth.points(),
+                Stroke::Marked,
+                COLOURS[k % COLOURS.len()],
+            );
+        }
+        report.panels.push(panel);
+    }
+    progress("elliptic, with the remainder");
+    report.rows.extend(pinned(transitions));
+    report
+}
+
+/// Levels at entries into regions.
+struct Levels {
+    /// The exact level of each region.
+    exact: Vec<f64>,
+    growth: Growth,
+    transitions: u64,
+    wanted: u64,
+    entered: bool,
+}
+
+impl Sink for Levels {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        if let (true, Some(exact)) = (self.entered, self.exact.get(record.region)) {
+            let error = (record.level[0] - exact).abs();
+            self.growth.offer(self.transitions as f64, error);
+            self.entered = false;
+        }
+        match self.transitions >= self.wanted {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
+    fn transition(&mut self, _crossed: &Crossed) -> ControlFlow<()> {
+        self.transitions += 1;
+        self.entered = true;
+        ControlFlow::Continue(())
+    }
+}
+
+fn measure(problem: &dyn Problem, setting: &Setting, transitions: u64) -> (Row, Growth) {
+    let mut levels = Levels {
+        exact: exact(problem),
+        growth: Growth::new(),
+        transitions: 0,
+        wanted: transitions,
+        entered: false,
+    };
+    let run = Run {
+        // more than there can be between transitions; the levels stop the run
+        t_end: 100.0 * transitions as f64,
+        ..setting.run(problem)
+    };
+    let what = format!("{}, {transitions} transitions", problem.card().name);
+    let row = match problem.integrate(&run, &mut levels) {
+        Ok(_) => {
+            let (error, exponent) = (levels.growth.largest(), levels.growth.exponent());
+            let holds = error <= bound(transitions as f64) && levels.transitions == transitions;
+            let finding = format!("level off by {error:.1e}, growing with the power {exponent:.2}");
+            Row::new(what, setting.name, Verdict::within(holds), finding)
+        }
+        // nothing stands in the way of these runs
+        Err(error) => Row::new(what, setting.name, Verdict::Wrong, error.to_string()),
+    };
+    (row, levels.growth)
+}
+
+/// The exact level of each region: of the reference, or that of the start for all.
+fn exact(problem: &dyn Problem) -> Vec<f64> {
+    let regions = problem.regions().len();
+    let mut levels = vec![f64::NAN; regions];
+    if let Ok(Some(reference)) = Reference::of(problem) {
+        for side in [-1.0, 1.0] {
+            let level = reference.constant_level(side).and_then(<[f64]>::first);
+            let region = problem
+                .region_on_side(side)
+                .and_then(|region| levels.get_mut(region));
+            if let (Some(level), Some(region)) = (level, region) {
+                *region = *level;
+            }
+        }
+        return levels;
+    }
+    let mut start = Start(f64::NAN);
+    // the error, if there is one, is that of the run that follows
+    let _ = problem.integrate(&problem.default_run(), &mut start);
+    vec![start.0; regions]
+}
+
+/// ψ at the start.
+struct Start(f64);
+
+impl Sink for Start {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.0 = record.psi[0];
+        ControlFlow::Break(())
+    }
+}
+
+/// Stops at a transition.
+struct Stop(u64);
+
+impl Observer<EllipticRegion, 2> for Stop {
+    fn transition(&mut self, _: &Transition<EllipticRegion, 2>) -> ControlFlow<()> {
+        self.0 = self.0.saturating_sub(1);
+        match self.0 {
+            0 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
+    }
+}
+
+/// The level of `elliptic` outside of the circle after an even number of transitions, evaluated
+/// exactly at the state with its remainder: it was 0 at the start.
+fn pinned(transitions: u64) -> Vec<Row> {
+    let system = Elliptic::default();
+    let mut rows = Vec::new();
+    for tolerance in [1e-3, 1e-12] {
+        let what = format!("elliptic, state with remainder, {transitions} transitions");
+        let scheme = format!("Taylor {tolerance:e}");
+        let result = Integrator::new(&system, Taylor::tolerance(tolerance))
+            .initial(0.0, [-1.0, -1.0])
+            .observe_until(100.0 * transitions as f64, &mut Stop(transitions));
+        rows.push(match result {
+            Ok(end) => {
+                let rational = |value: f64| BigRational::from_float(value);
+                let exactly =
+                    |i: usize| Some(rational(end.point.x[i])? + rational(end.remainder[i])?);
+                let level = exactly(0).zip(exactly(1)).map(|(x, y)| {
+                    let a = BigRational::from_integer((system.a_outside as i64).into());
+                    &y * &y - &x * &x * &x - a * &x
+                });
+                let level = level
+                    .and_then(|level| level.to_f64())
+                    .unwrap_or(f64::NAN)
+                    .abs();
+                let finding = format!("level off by {level:.1e}");
+                Row::new(what, scheme, Verdict::within(level <= PINNED), finding)
+            }
+            Err(error) => Row::new(what, scheme, Verdict::Wrong, error.to_string()),
+        });
+    }
+    rows
+}
