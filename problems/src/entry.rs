@@ -43,7 +43,7 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
         scheme: Sch,
         locator: Loc,
         sink: &mut dyn Sink,
-    ) -> Result<Statistics, Error> {
+    ) -> Result<Finish, Error> {
         let mut relay = Relay {
             wants_records: sink.wants_records(),
             sink,
@@ -57,7 +57,15 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
         let problem = Integrator::new(&self.system, scheme)
             .locator(locator)
             .initial(0.0, Self::vector(&run.initial));
-        Ok(problem.observe_until(run.t_end, &mut relay)?.statistics)
+        Ok(finish(problem.observe_until(run.t_end, &mut relay)?))
+    }
+}
+
+/// The end of a run, whatever its dimension.
+fn finish<R, const N: usize>(end: End<R, N>) -> Finish {
+    Finish {
+        x: end.point.x.as_slice().to_vec(),
+        statistics: end.statistics,
     }
 }
 
@@ -69,11 +77,20 @@ struct Observed<'a, Sys, const N: usize> {
 }
 
 impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Observed<'_, Sys, N> {
-    type Output = Result<Statistics, Error>;
+    type Output = Result<Finish, Error>;
 
     fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output {
         self.entry
             .observe(self.run, scheme, NewtonLocator, self.sink)
+    }
+}
+
+/// Ignores everything.
+struct Nobody;
+
+impl Sink for Nobody {
+    fn wants_records(&self) -> bool {
+        false
     }
 }
 
@@ -89,11 +106,7 @@ impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Silent<'_, Sys,
     fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output {
         let initial = Entry::<Sys, N>::vector(&self.run.initial);
         let problem = Integrator::new(&self.entry.system, scheme).initial(0.0, initial);
-        let end = problem.observe_until(self.run.t_end, &mut ())?;
-        Ok(Finish {
-            x: end.point.x.as_slice().to_vec(),
-            statistics: end.statistics,
-        })
+        Ok(finish(problem.observe_until(self.run.t_end, &mut ())?))
     }
 }
 
@@ -368,18 +381,26 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
     }
 
     fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error> {
-        match run.method {
+        let finish = match run.method {
             Method::Perturbed(locator) => self.observe(run, symmetric(run), locator, sink),
             _ => run.visit_scheme(Observed {
                 entry: self,
                 run,
                 sink,
             }),
-        }
+        };
+        Ok(finish?.statistics)
     }
 
     fn integrate_silently(&self, run: &Run) -> Result<Finish, Error> {
-        run.visit_scheme(Silent { entry: self, run })
+        let silent = Silent { entry: self, run };
+        run.visit_unobserved(silent).unwrap_or_else(|| {
+            run.visit_scheme(Observed {
+                entry: self,
+                run,
+                sink: &mut Nobody,
+            })
+        })
     }
 
     fn integrate_all(
@@ -389,7 +410,8 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
         starts: &mut dyn Iterator<Item = Start>,
         sink: &mut dyn FnMut(Fate) -> ControlFlow<()>,
     ) {
-        run.visit_scheme(Together {
+        // a scheme that is not compiled for ensembles has been refused
+        run.visit_unobserved(Together {
             entry: self,
             run,
             crew,

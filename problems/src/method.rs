@@ -128,6 +128,29 @@ methods! {
     }
 }
 
+impl Run {
+    /// Hands the scheme of the run to `visitor`, if it is one that is compiled for runs that
+    /// nobody observes too: the fastest with uniform and with chosen steps. The others would take
+    /// minutes more to compile for every problem.
+    pub(crate) fn visit_unobserved<V: SchemeVisitor>(&self, visitor: V) -> Option<V::Output> {
+        let Self {
+            tolerance,
+            level_correction,
+            ..
+        } = *self;
+        Some(match self.method {
+            Method::Symmetric => visitor.visit(symmetric(self)),
+            Method::Taylor => {
+                visitor.visit(Taylor::tolerance(tolerance).level_correction(level_correction))
+            }
+            Method::Best => {
+                visitor.visit(Best::tolerance(tolerance).level_correction(level_correction))
+            }
+            _ => return None,
+        })
+    }
+}
+
 /// Helps the compiler to see what a closure takes.
 fn apply<Sch>(run: &Run, scheme: impl Fn(&Run) -> Sch) -> Sch {
     scheme(run)
@@ -143,6 +166,9 @@ impl Method {
     pub fn all() -> impl Iterator<Item = Self> {
         Self::CONSERVING.iter().chain(Self::FOR_COMPARISON).copied()
     }
+
+    /// The schemes that ensembles are integrated by.
+    pub const OF_ENSEMBLES: &'static [Self] = &[Self::Symmetric, Self::Taylor, Self::Best];
 
     /// The scheme of that name, by a tolerance if there is such a form and it is `adaptive`.
     pub fn find(name: &str, adaptive: bool) -> Option<Self> {

@@ -142,7 +142,7 @@ fn lanes_do_what_each_trajectory_does_alone() {
 #[test]
 fn lanes_reach_the_reference() {
     // x, y at t = 100 from (-1, -1) in 60-digit arithmetic
-    let reference = Vector::from([-0.31986906598526580, -0.69414518403340672]);
+    let reference = Vector::from([-0.319_869_065_985_265_8, -0.694_145_184_033_406_7]);
     let member = Member::new(Elliptic::default(), 0.0, [-1.0, -1.0]);
     let members = std::iter::repeat_n(member, 5);
     for outcome in Ensemble::new(Taylor::tolerance(1e-13)).collect_until(100.0, members) {

@@ -6,7 +6,7 @@ use dmm_runtime::{
     OneStep, Scheme, Statistics, Step, StepFailure, Symmetric, System, Taylor, Vector, pws,
 };
 
-use super::{Extent, Report, Row, Verdict, name};
+use super::{Extent, Progress, Report, Row, Verdict, name};
 use crate::systems::Elliptic;
 
 pws! {
@@ -63,7 +63,7 @@ const STEP_SIZE: f64 = 0.01;
 const FROM: f64 = 1.0;
 const T_END: f64 = 3.0;
 
-pub(super) fn study(_extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(_extent: Extent, progress: Progress<'_>) -> Report {
     progress("solvers and locators");
     let mut rows = vec![
         solver(
@@ -102,6 +102,8 @@ struct Failing {
 }
 
 impl OneStep for Failing {
+    const ORDER: usize = 2;
+
     type Memory<const N: usize> = ();
 
     fn step_size(&self) -> f64 {

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use super::growth::Growth;
-use super::{Extent, Report, Row, Setting, Verdict, name};
+use super::{Extent, Progress, Report, Row, Setting, Verdict, name};
 use crate::method::Method;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Problem, Record, Run, Sink};
@@ -48,7 +48,7 @@ const CASES: [(&str, Setting, u64); 6] = [
     ),
 ];
 
-pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     let mut report = Report::default();
     let mut panel = Panel::new(
         "within segments",

@@ -109,6 +109,9 @@ impl Extent {
     }
 }
 
+/// What is told of each case before it begins.
+pub type Progress<'a> = &'a mut dyn FnMut(&str);
+
 /// A study.
 #[derive(Clone, Copy, Debug)]
 pub struct Study {
@@ -116,12 +119,12 @@ pub struct Study {
     pub name: &'static str,
     /// What it does.
     pub title: &'static str,
-    study: fn(Extent, &mut dyn FnMut(&str)) -> Report,
+    study: fn(Extent, Progress<'_>) -> Report,
 }
 
 impl Study {
     /// Makes the study; `progress` is told of each case before it begins.
-    pub fn run(&self, extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+    pub fn run(&self, extent: Extent, progress: Progress<'_>) -> Report {
         (self.study)(extent, progress)
     }
 }

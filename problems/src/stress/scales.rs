@@ -5,7 +5,7 @@
 //! underflow.
 
 use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
-use super::{Extent, Report, Row, SETTINGS, Setting, Verdict};
+use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict};
 use crate::entry::Entry;
 use crate::problem::{OutputTimes, Problem, Run, Sink};
 use dmm_runtime::Error;
@@ -35,7 +35,7 @@ const CASES: [Case; 2] = [
     },
 ];
 
-pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     let stride = extent.of(5, 25);
     let mut report = Report::default();
     for case in CASES {

@@ -1,7 +1,7 @@
 //! Step sizes from the limit of stability to 10⁻⁹: as long as a step has a solution, ψ keeps
 //! its level; when it has none any more, that is said.
 
-use super::{Extent, Report, Row, SETTINGS, Setting, Verdict, name};
+use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict, name};
 use crate::conservation::{Conservation, measure};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::Run;
@@ -12,7 +12,7 @@ use dmm_runtime::Error;
 const BOUND: f64 = 8.0;
 const PROBLEMS: [&str; 4] = ["harmonic", "elliptic", "pendulum", "henon_heiles"];
 
-pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     let steps = extent.of(1_000_000.0, 2_000.0);
     let mut report = Report::default();
     for setting in SETTINGS {

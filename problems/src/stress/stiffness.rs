@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::ops::ControlFlow;
 
-use super::{Extent, Report, Row, SETTINGS, Setting, Verdict};
+use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict};
 use crate::method::Control;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Run, Sink};
@@ -28,7 +28,7 @@ impl Sink for Crossings {
     }
 }
 
-pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     let pairs = extent.of(100, 3);
     let largest = extent.of(8, 4);
     let mut report = Report::default();
@@ -53,7 +53,7 @@ pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
                 Ok(error) => {
                     curve.push((ratio, error.max(f64::EPSILON)));
                     largest_error = largest_error.max(error / bound(&setting, pairs));
-                    if !(error <= bound(&setting, pairs)) {
+                    if error.is_nan() || error > bound(&setting, pairs) {
                         worst.verdict = Verdict::Wrong;
                     }
                 }

@@ -12,7 +12,7 @@ use dmm_runtime::Error;
 use num_rational::BigRational;
 
 use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
-use super::{Extent, Report, Row, SETTINGS, Setting, Verdict, name};
+use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict, name};
 use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Run, Sink};
@@ -74,7 +74,7 @@ struct Tally {
     wrong: Vec<String>,
 }
 
-pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     let per_decade = extent.of(10, 1);
     let mut report = Report::default();
     let mut panel = Panel::new(

@@ -12,7 +12,7 @@ use num_traits::ToPrimitive;
 
 use super::growth::Growth;
 use super::systems::{WARPED, Warped};
-use super::{Extent, Report, Row, SETTINGS, Setting, Verdict};
+use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict};
 use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Record, Run, Sink};
@@ -29,7 +29,7 @@ fn bound(transitions: f64) -> f64 {
 /// Where the state at a transition is pinned with its remainder.
 const PINNED: f64 = 1e-28;
 
-pub(super) fn study(extent: Extent, progress: &mut dyn FnMut(&str)) -> Report {
+pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     let transitions = extent.of(1_000_000, 500);
     let mut report = Report::default();
     let problems: [(&str, Box<dyn Problem>); 2] = [

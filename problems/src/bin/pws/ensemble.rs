@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use dmm_problems::method::Method;
 use dmm_problems::problem::{Arrival, Crew, Fate, Problem, Run, Start};
 use indicatif::ProgressBar;
 
@@ -60,6 +61,15 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &[])?;
     let problem = &*problem;
     let run = arguments.scheme.applied(problem.default_run())?;
+    let known = Method::OF_ENSEMBLES;
+    if !known.contains(&run.method) {
+        let names: Vec<&str> = known.iter().map(|method| method.name()).collect();
+        return Err(Failure::Request(format!(
+            "ensembles are not integrated by {}, but by {}",
+            scheme::describe(&run),
+            names.join(", ")
+        )));
+    }
     let run = Run {
         t_end: arguments.end.unwrap_or(run.t_end),
         level_correction: !arguments.no_level_correction,
@@ -165,10 +175,10 @@ impl Results {
     /// are left.
     fn take(&mut self, waiting: &Waiting, mut fate: Option<Fate>) -> Result<(), Failure> {
         let ends_with_member = fate.is_some();
-        while let Some(row) = {
+        loop {
+            // the members are not borrowed while the row is written
             let next = waiting.borrow_mut().pop_front();
-            next
-        } {
+            let Some(row) = next else { break };
             match row {
                 Err(failure) => self.write(None, None, &failure)?,
                 Ok(start) => {

@@ -221,7 +221,10 @@ fn row(
 mod tests {
     use super::*;
 
-    fn starts(initial: &str, parameters: &[&str]) -> Result<Vec<(Vec<f64>, Vec<f64>)>, Failure> {
+    /// The parameters and the initial state of each.
+    type Starts = Vec<(Vec<f64>, Vec<f64>)>;
+
+    fn starts(initial: &str, parameters: &[&str]) -> Result<Starts, Failure> {
         let problem = input::problem("elliptic", &[])?;
         let parameters: Vec<String> = parameters.iter().map(|text| (*text).to_owned()).collect();
         let members = combinations(&*problem, Some(initial), &parameters)?;
