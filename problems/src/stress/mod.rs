@@ -249,12 +249,17 @@ mod tests {
 
     #[test]
     fn nothing_is_wrong_in_silence() {
+        let mut wrong = Vec::new();
         for study in STUDIES {
             let report = study.run(Extent::Brief, &mut |_| {});
             assert!(report.rows.len() > 1, "{}", study.name);
-            for row in report.rows {
-                assert_ne!(row.verdict, Verdict::Wrong, "{}: {row:?}", study.name);
-            }
+            wrong.extend(
+                report
+                    .rows
+                    .into_iter()
+                    .filter(|row| row.verdict == Verdict::Wrong),
+            );
         }
+        assert!(wrong.is_empty(), "{wrong:#?}");
     }
 }

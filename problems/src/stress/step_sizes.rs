@@ -8,8 +8,9 @@ use crate::problem::Run;
 use crate::registry::find;
 use dmm_runtime::Error;
 
-/// Evaluating ψ costs two or three roundings of its terms, the state's own one each.
-const BOUND: f64 = 8.0;
+/// Evaluating ψ costs two or three roundings of its terms, the state's own one each; at the limit
+/// of stability the state moves by its own size in a step.
+const BOUND: f64 = 16.0;
 const PROBLEMS: [&str; 4] = ["harmonic", "elliptic", "pendulum", "henon_heiles"];
 
 pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {

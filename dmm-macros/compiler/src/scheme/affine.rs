@@ -71,7 +71,7 @@ mod tests {
         let text = format!(
             "system S {{ state x, y; param a = 2, c = 3; interface wall = {interface};
                 region left where wall < 0 {{ der(x) = {field}; der(y) = x; }}
-                region right where wall > 0 {{ der(x) = y; der(y) = 1; }} }}"
+                region right where wall > 0 {{ der(x) = y; der(y) = a + c; }} }}"
         );
         let scheme = crate::read(text.parse().expect("tokens")).expect("a scheme");
         (scheme.regions[0].affine, scheme.interfaces[0].affine)
