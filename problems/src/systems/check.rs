@@ -21,7 +21,7 @@ const TOLERANCES: [f64; 4] = [1e-4, 1e-8, 1e-12, 1e-15];
 /// The errors of a few hundred steps, and what the flows make of them until the end.
 const GROWTH: f64 = 1e3;
 /// What rounding errors grow to.
-const ROUNDING: f64 = 5e-12;
+const GROWN: f64 = 5e-12;
 
 #[derive(Default)]
 struct Collector {
@@ -121,7 +121,7 @@ fn assert_reaches(
 ) {
     let name = format!("{}, {}", problem.card().name, method.name());
     let solution = solve(problem, method, tolerance, times);
-    let largest = (GROWTH * tolerance).max(ROUNDING);
+    let largest = (GROWTH * tolerance).max(GROWN);
     assert_eq!(
         solution.crossings.len(),
         exact.count,
