@@ -1,4 +1,4 @@
-//! The schemes by name: a row of [`methods!`] is all that a scheme needs to be known to the
+//! The schemes by name: a row of `methods!` is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
 use dmm_runtime::{Best, Composed, Scheme, Symmetric, Taylor};
