@@ -70,11 +70,11 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// a batch for each core is in memory, never all. A member that fails does not disturb the
 /// others; its result is the error, with the point that was reached.
 ///
-/// [`Taylor`] integrates four trajectories at once in the lanes of vector registers, each with
-/// steps and transitions of its own, where the processor has what that takes (x86-64 with AVX2
-/// and FMA, aarch64; found out when the program runs). Its results are as accurate as those of
-/// an [`Integrator`], but not the same to the last bits: sums are rounded differently. The other
-/// schemes integrate one trajectory at a time, on all cores.
+/// [`Taylor`](crate::Taylor) integrates four trajectories at once in the lanes of vector
+/// registers, each with steps and transitions of its own, where the processor has what that takes
+/// (x86-64 with AVX2 and FMA, aarch64; found out when the program runs). Its results are as
+/// accurate as those of an [`Integrator`], but not the same to the last bits: sums are rounded
+/// differently. The other schemes integrate one trajectory at a time, on all cores.
 ///
 /// ```
 /// use dmm_runtime::{Ensemble, Member, Taylor, pws};
