@@ -3,16 +3,18 @@
 //! A step conserves ψ up to its truncation and rounding errors, which add up over a long run.
 //! The level is therefore kept from the entry into a region, where it is taken as a pair of
 //! doubles of the state with its remainder, and the residual r = ψ(t, x) − ψ_ref is taken off
-//! the state along the rows of Λ: the smallest δx with Λ δx = −r.
+//! the state: the smallest δx with Λ δx = −r, each component measured by its [`Weights`], so that
+//! neither its unit nor its zeros matter. With W = diag(wᵢ²), δx = −WΛᵀ(ΛWΛᵀ)⁻¹ r.
 //!
 //! Where ψ has little slope the rounding error of ψ, and not r, would be what moves the state.
 //! There r is evaluated in pairs of doubles. Where ψ has no slope to speak of even r must not be
-//! amplified: there, for one quantity δx = −Λᵀ r/(ΛΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of several
-//! quantities each is damped in the direction that it adds to those before it, and the rows
+//! amplified: there, for one quantity δx = −WΛᵀ r/(ΛWΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of
+//! several quantities each is damped in the direction that it adds to those before it, and the rows
 //! that count are those that [`MinimalNorm`] keeps in the discrete vector field.
 
 use crate::linear::dot;
 use crate::minimal_norm::MinimalNorm;
+use crate::scalar::Scalar;
 use crate::special::double::Double;
 use crate::state::State;
 use crate::system::{Boundary, Flow, Matrix, Vector};
@@ -26,6 +28,55 @@ pub(crate) struct Level<const N: usize, const M: usize> {
     remainder: Vector<f64, M>,
     /// (|terms of ψ|/|x|)²: the squares of slopes count relative to these.
     scale: Vector<f64, M>,
+}
+
+/// The sizes of components next to a point: wᵢ² = xᵢ² + dᵢ² of the state and the step that led to
+/// it, relative to the largest of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights<const N: usize> {
+    squares: Vector<f64, N>,
+    /// The largest square.
+    largest: f64,
+}
+
+impl<const N: usize> Weights<N> {
+    /// Those at the end `x` of a step over `displacement`.
+    #[inline(always)]
+    pub(crate) fn new(x: &Vector<f64, N>, displacement: &Vector<f64, N>) -> Self {
+        let squares = x.zip_map(displacement, |x, d| d.fused(d, x * x));
+        let largest = squares.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        Self {
+            squares: squares * (1.0 / largest),
+            largest,
+        }
+    }
+
+    /// wᵢ² Λᵢ
+    #[inline(always)]
+    fn times(&self, row: &Vector<f64, N>) -> Vector<f64, N> {
+        row.component_mul(&self.squares)
+    }
+
+    /// Λ with column i times wᵢ, and the wᵢ.
+    #[inline(always)]
+    fn scaled<const M: usize>(
+        &self,
+        multiplier: &Matrix<f64, M, N>,
+    ) -> (Matrix<f64, M, N>, Vector<f64, N>) {
+        let sizes = self.squares.map(f64::sqrt);
+        let scaled = Matrix::from_fn(|m, i| multiplier[(m, i)] * sizes[i]);
+        (scaled, sizes)
+    }
+
+    /// Whether the error of second order of a displacement is more than a rounding error.
+    #[inline(always)]
+    fn are_left_by(&self, displacement: &Vector<f64, N>) -> bool {
+        let far = |i: usize| {
+            let bound = COARSE * COARSE * self.largest * self.squares[i];
+            displacement[i] * displacement[i] > bound
+        };
+        (0..N).fold(false, |any, i| any | far(i))
+    }
 }
 
 impl<const N: usize, const M: usize> Level<N, M> {
@@ -53,7 +104,8 @@ impl<const N: usize, const M: usize> Level<N, M> {
     /// Takes the scale of slopes from the present state, which may have grown or shrunk since
     /// the entry.
     pub(crate) fn rescale<F: Flow<f64, N, M>>(&mut self, flow: &F, t: f64, state: &State<N>) {
-        let square = dot(&state.x, &state.x).max(f64::MIN_POSITIVE);
+        let squares = state.x.iter().map(|x| x * x);
+        let square = squares.fold(f64::MIN_POSITIVE, f64::max);
         let size = flow.conserved_size(t, &state.x);
         self.scale = size.map(|size| size * (size / square) + f64::MIN_POSITIVE);
     }
@@ -65,6 +117,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         flow: &F,
         time: Time,
         state: &State<N>,
+        weights: &Weights<N>,
     ) -> Vector<f64, N> {
         if M == 0 {
             return Vector::zeros();
@@ -73,20 +126,23 @@ impl<const N: usize, const M: usize> Level<N, M> {
         let little = self.scale * (Self::LITTLE * Self::LITTLE);
         if M == 1 {
             let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
-            let square = dot(&row, &row);
+            let weighted = weights.times(&row);
+            let square = dot(&row, &weighted);
             let inverse = 1.0 / square;
             let drift = dot(&row, &remainder(flow, time, state)) - self.remainder[0];
             if square > little[0] {
-                return row * -(((psi[0] - self.reference[0]) + drift) * inverse);
+                return weighted * -(((psi[0] - self.reference[0]) + drift) * inverse);
             }
-            return self.gentle(flow, time, state, &multiplier);
+            return self.gentle(flow, time, state, &multiplier, weights);
         }
-        let projection = MinimalNorm::new(&multiplier, &multiplier);
+        let (scaled, sizes) = weights.scaled(&multiplier);
+        let projection = MinimalNorm::new(&scaled, &scaled);
         if projection.is_steep(&little) {
             let drift = multiplier * remainder(flow, time, state) - self.remainder;
-            return -projection.smallest(&((psi - self.reference) + drift));
+            let residual = (psi - self.reference) + drift;
+            return -projection.smallest(&residual).component_mul(&sizes);
         }
-        self.gentle(flow, time, state, &multiplier)
+        self.gentle(flow, time, state, &multiplier, weights)
     }
 
     /// The displacement where ψ has little slope, with the residual in pairs of doubles.
@@ -98,9 +154,10 @@ impl<const N: usize, const M: usize> Level<N, M> {
         time: Time,
         state: &State<N>,
         multiplier: &Matrix<f64, M, N>,
+        weights: &Weights<N>,
     ) -> Vector<f64, N> {
         let residual = self.residual(flow, time, state);
-        self.towards(multiplier, &residual)
+        self.towards(multiplier, &residual, weights)
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.
@@ -121,19 +178,23 @@ impl<const N: usize, const M: usize> Level<N, M> {
         &self,
         multiplier: &Matrix<f64, M, N>,
         residual: &Vector<f64, M>,
+        weights: &Weights<N>,
     ) -> Vector<f64, N> {
         let damping = self.scale * (Self::NONE * Self::NONE);
         if M == 1 {
             let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
-            let square = dot(&row, &row);
+            let weighted = weights.times(&row);
+            let square = dot(&row, &weighted);
             let damping = if square > damping[0] { 0.0 } else { damping[0] };
-            return row * -(residual[0] / (square + damping));
+            return weighted * -(residual[0] / (square + damping));
         }
-        let projection = MinimalNorm::new(multiplier, multiplier);
-        match projection.is_steep(&damping) {
-            true => -projection.smallest(residual),
-            false => -projection.damped(residual, &damping),
-        }
+        let (scaled, sizes) = weights.scaled(multiplier);
+        let projection = MinimalNorm::new(&scaled, &scaled);
+        let displacement = match projection.is_steep(&damping) {
+            true => projection.smallest(residual),
+            false => projection.damped(residual, &damping),
+        };
+        -displacement.component_mul(&sizes)
     }
 
     /// Whether ψ is further from its level than the rounding errors of evaluating it: a state that
@@ -152,28 +213,29 @@ impl<const N: usize, const M: usize> Level<N, M> {
         errors.any(|(residual, size)| residual.abs() > Self::ROUNDING * size)
     }
 
-    /// The state that a step has come to, put back on the level if it `corrects`.
+    /// The state that a step over `displacement` has come to, put back on the level.
     #[inline(always)]
     pub(crate) fn reached<F: Flow<f64, N, M>>(
         &self,
         flow: &F,
         time: Time,
         mut state: State<N>,
-        corrects: bool,
+        displacement: &Vector<f64, N>,
     ) -> State<N> {
-        if M == 0 || !corrects {
+        if M == 0 {
             return state.normalised();
         }
+        let weights = Weights::new(&state.x, displacement);
         if M == 1
-            && let Some(reached) = self.reached_at_once(flow, time, &state)
+            && let Some(reached) = self.reached_at_once(flow, time, &state, &weights)
         {
             return reached;
         }
-        let displacement = self.correction(flow, time, &state);
+        let displacement = self.correction(flow, time, &state, &weights);
         state.remainder += displacement;
         state = state.normalised();
-        match is_coarse(&displacement, &state) {
-            true => self.reached_again(flow, time, state),
+        match weights.are_left_by(&displacement) {
+            true => self.reached_again(flow, time, state, &weights),
             false => state,
         }
     }
@@ -186,14 +248,16 @@ impl<const N: usize, const M: usize> Level<N, M> {
         flow: &F,
         time: Time,
         state: &State<N>,
+        weights: &Weights<N>,
     ) -> Option<State<N>> {
         let (psi, multiplier) = flow.multiplier(time.value, &state.x);
         let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
-        let square = dot(&row, &row);
+        let weighted = weights.times(&row);
+        let square = dot(&row, &weighted);
         if square <= self.scale[0] * (Self::LITTLE * Self::LITTLE) {
             return None;
         }
-        let gain = row * (1.0 / square);
+        let gain = weighted * (1.0 / square);
         let residual = |psi: Vector<f64, M>, state: &State<N>| {
             let drift = dot(&row, &remainder(flow, time, state)) - self.remainder[0];
             (psi[0] - self.reference[0]) + drift
@@ -204,13 +268,13 @@ impl<const N: usize, const M: usize> Level<N, M> {
         };
         let first = residual(psi, state);
         let mut reached = without(*state, first);
-        let coarse = square * (dot(&state.x, &state.x) * (COARSE * COARSE));
+        let coarse = square * (weights.largest * (COARSE * COARSE));
         if first * first > coarse {
             let second = residual(flow.conserved(time.value, &reached.x), &reached);
             reached = without(reached, second);
             // the same slope again leaves the product of the two
             if (first * second).abs() > coarse {
-                reached = self.reached_again(flow, time, reached);
+                reached = self.reached_again(flow, time, reached, weights);
             }
         }
         Some(reached)
@@ -223,14 +287,15 @@ impl<const N: usize, const M: usize> Level<N, M> {
         flow: &F,
         time: Time,
         mut state: State<N>,
+        weights: &Weights<N>,
     ) -> State<N> {
         /// The error falls to its square each time, and then to the part that damping leaves.
         const MOST: u32 = 8;
         for _ in 0..MOST {
-            let displacement = self.correction(flow, time, &state);
+            let displacement = self.correction(flow, time, &state, weights);
             state.remainder += displacement;
             state = state.normalised();
-            if !is_coarse(&displacement, &state) {
+            if !weights.are_left_by(&displacement) {
                 break;
             }
         }
@@ -241,12 +306,6 @@ impl<const N: usize, const M: usize> Level<N, M> {
 /// The error of second order of a displacement by this part of the state is more than a rounding
 /// error.
 const COARSE: f64 = 1e-9;
-
-/// Whether the error of second order of a displacement is more than a rounding error.
-#[inline(always)]
-fn is_coarse<const N: usize>(displacement: &Vector<f64, N>, state: &State<N>) -> bool {
-    dot(displacement, displacement) > COARSE * COARSE * dot(&state.x, &state.x)
-}
 
 /// Of more states ψ has so many terms that their code in pairs of doubles is out of proportion:
 /// there ψ is evaluated in doubles, and the remainders enter by its slope.

@@ -51,9 +51,10 @@ fn assert_order(study: &Study, errors: &[f64], order: f64, what: &str) {
     );
 }
 
-/// A composition, with the exponent of its error, the step size from which its errors are fitted on a problem of
-/// frequencies around 2, and what the order may be off by: steps are long, so that the next term
-/// of the error still shows.
+/// A composition, with the exponent of its error, the step size from which its errors are fitted
+/// on a problem of frequencies around 2, and what the order may be off by: steps are long, so that
+/// the next term of the error still shows (a symmetric scheme is of even order: what is above 7
+/// is 8).
 struct Composition {
     method: Method,
     exponent: f64,
@@ -78,7 +79,7 @@ const COMPOSITIONS: [Composition; 3] = [
         method: Method::Composed8,
         exponent: 8.0,
         longest_step: 1.0 / 4.0,
-        tolerance: 0.4,
+        tolerance: 0.75,
     },
 ];
 
@@ -86,16 +87,26 @@ const COMPOSITIONS: [Composition; 3] = [
 /// faster than in the limit.
 const FASTER: f64 = 1.25;
 
+/// Errors below this are of rounding, and not fitted: a few steps of order 8 come to it.
+const ROUNDING: f64 = 2e-14;
+/// Errors that a fit takes, of the shortest steps.
+const FITTED: usize = 4;
+const FEWEST: usize = 3;
+
 impl Composition {
     /// The study on a problem that takes steps longer by `factor`.
     fn study(&self, name: &str, factor: f64, after: &[usize]) -> Study {
         let step_size = |k: i32| factor * self.longest_step * 0.5f64.sqrt().powi(k);
-        let step_sizes = (0..4).map(step_size).collect();
+        let step_sizes = (0..6).map(step_size).collect();
         studied(name, self.method, after, step_sizes)
     }
 
     fn assert_order(&self, study: &Study, errors: &[f64], what: &str) {
-        let fitted = fitted_order(&study.step_sizes, errors);
+        let end = errors.iter().take_while(|error| **error > ROUNDING);
+        let end = end.count();
+        assert!(end >= FEWEST, "{what}: {errors:?}");
+        let fitted = end.saturating_sub(FITTED)..end;
+        let fitted = fitted_order(&study.step_sizes[fitted.clone()], &errors[fitted]);
         assert!(
             (-self.tolerance..=FASTER).contains(&(fitted - self.exponent)),
             "{what}: order {fitted} for {}, {errors:?}",
@@ -127,7 +138,7 @@ fn the_papers_systems_have_order_2_before_and_after_transitions() {
 
 #[test]
 fn compositions_keep_their_order_across_thirty_transitions() {
-    for (name, factor) in [("elliptic", 0.5), ("pendulum", 1.0)] {
+    for (name, factor) in [("elliptic", 0.5), ("pendulum", 2.0)] {
         for composition in &COMPOSITIONS {
             let study = composition.study(name, factor, &[0, 10, 20, 30]);
             for row in &study.rows {
@@ -148,10 +159,11 @@ fn compositions_keep_their_order_across_thirty_transitions() {
 fn compositions_keep_their_order_with_every_strategy() {
     // ln; time-dependent ψ; minimal norm with M = 3; cross product; no interface
     for (name, factor, after) in [
-        ("lotka_volterra_periodic", 2.0, &[0, 3, 6][..]),
-        ("damped", 2.0, &[0, 3, 6]),
-        ("kepler_refraction", 1.0, &[0, 3, 6]),
-        ("rigid_body", 8.0, &[0, 3, 6]),
+        // before the first transition there is hardly time for an error
+        ("lotka_volterra_periodic", 2.0, &[3, 6][..]),
+        ("damped", 2.0, &[3, 6]),
+        ("kepler_refraction", 1.0, &[3, 6]),
+        ("rigid_body", 8.0, &[3, 6]),
         ("henon_heiles", 1.5, &[0]),
     ] {
         for composition in &COMPOSITIONS {

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use super::glance::glance;
-use super::level::{Place, coarse, two_sum, vector};
+use super::level::{Place, two_sum, vector};
 use super::register::{Register, WIDTH, Wide};
 use crate::lanes::Mask;
 use crate::scalar::Scalar;
@@ -13,6 +13,8 @@ use crate::series::{Choice, Coefficients, Order, Unroll};
 use crate::system::{Boundary, Flow, FlowVisitor, Vector};
 use crate::walk::Decay;
 
+/// Halvings of a step of which a glance does not tell enough.
+const MOST_HALVINGS: u32 = 2;
 /// Corrections of a crossing.
 const MOST_CORRECTIONS: u32 = 12;
 /// A correction of the time smaller than this part of the step is made along the field.
@@ -303,22 +305,22 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
         place
     }
 
-    /// A step of every lane, and whether one needs attention.
+    /// Steps over `size`, or up to the end: their sizes, which are the last ones, and where they
+    /// lead, without correction.
     #[inline(always)]
-    fn step(&mut self, entry: &Entry) -> bool {
+    fn reached(&self, size: Wide) -> (Wide, Mask<WIDTH>, Place<N>) {
         let n = Wide::from_f64;
         let (start, start_remainder) = (self.register.t, self.register.t_remainder);
-        let wanted = self.wanted(entry.enters).settled();
         let (difference, error) = two_sum(n(self.settings.end), -start);
         let remaining = difference + (error - start_remainder);
-        let last = wanted.above(remaining).or(wanted.equals(remaining));
-        let mut tau = last.select(remaining, wanted);
+        let last = size.above(remaining).or(size.equals(remaining));
+        let mut tau = last.select(remaining, size);
         let mut place = self.register.place();
         if F::AUTONOMOUS {
             place.add_time(tau);
         } else {
             // the formulas are evaluated at a double
-            place.t = start + wanted;
+            place.t = start + size;
             let (difference, error) = two_sum(place.t, -start);
             tau = last.select(remaining, difference + (error - start_remainder));
             place.t_remainder = n(0.0);
@@ -326,7 +328,27 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
         place.t = last.select(n(self.settings.end), place.t);
         place.t_remainder = last.select(n(0.0), place.t_remainder);
         place.add(&self.increment(tau));
-        let ahead = self.look_ahead(tau, &place, entry.interface);
+        (tau, last, place)
+    }
+
+    /// A step of every lane, and whether one needs attention.
+    #[inline(always)]
+    fn step(&mut self, entry: &Entry) -> bool {
+        let n = Wide::from_f64;
+        let (start, start_remainder) = (self.register.t, self.register.t_remainder);
+        let wanted = self.wanted(entry.enters).settled();
+        let mut size = wanted;
+        let mut halvings = 0;
+        let (tau, last, mut place, ahead) = loop {
+            let (tau, last, place) = self.reached(size);
+            let ahead = self.look_ahead(tau, &place, entry.interface);
+            let near = ahead.hard.and(self.register.used());
+            if halvings == MOST_HALVINGS || !near.any() {
+                break (tau, last, place, ahead);
+            }
+            halvings += 1;
+            size = near.select(n(0.5) * size, size);
+        };
         if self.settings.corrects {
             self.register.correct(self.flow, &mut place);
         } else {
@@ -444,7 +466,8 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
             place.normalise();
             place.add_time(delta);
             self.register.rate = approach.rate;
-            settled = coarse(&displacement, &place.x).not().or(used.not());
+            let coarse = self.register.coarse(&displacement, &place);
+            settled = coarse.not().or(used.not());
             if !settled.not().any() {
                 break;
             }

@@ -81,17 +81,6 @@ impl<const N: usize> Place<N> {
     }
 }
 
-/// Where the displacement is so large that its square is no rounding error.
-#[inline(always)]
-pub(super) fn coarse<const N: usize>(
-    displacement: &Vector<Wide, N>,
-    x: &Vector<Wide, N>,
-) -> Mask<WIDTH> {
-    let square =
-        |v: &Vector<Wide, N>| (0..N).fold(Wide::from_f64(0.0), |sum, i| v[i].fused(v[i], sum));
-    square(displacement).above(Wide::from_f64(COARSE * COARSE) * square(x))
-}
-
 impl<const N: usize> Register<N> {
     /// The level at the entry into a region.
     #[inline(always)]
@@ -112,6 +101,36 @@ impl<const N: usize> Register<N> {
         }
     }
 
+    /// The squares of the sizes of components after a step to a place.
+    #[inline(always)]
+    fn squares(&self, place: &Place<N>) -> Vector<Wide, N> {
+        vector(|i| {
+            let moved = place.x[i] - self.x[i];
+            moved.fused(moved, place.x[i] * place.x[i])
+        })
+    }
+
+    /// Where a displacement at a place is so large that its square is no rounding error.
+    #[inline(always)]
+    pub(super) fn coarse(&self, displacement: &Vector<Wide, N>, place: &Place<N>) -> Mask<WIDTH> {
+        let squares = self.squares(place);
+        let bound = Wide::from_f64(COARSE * COARSE);
+        (0..N).fold(Mask::all(false), |any, i| {
+            let square = displacement[i] * displacement[i];
+            any.or(square.above(bound * squares[i]))
+        })
+    }
+
+    /// The squares of the sizes of components after a step to a place, relative to the largest.
+    #[inline(always)]
+    fn weights(&self, place: &Place<N>) -> Vector<Wide, N> {
+        let squares = self.squares(place);
+        let least = Wide::from_f64(f64::MIN_POSITIVE);
+        let largest = (0..N).fold(least, |largest, i| largest.max(squares[i]));
+        let inverse = Wide::from_f64(1.0) / largest;
+        vector(|i| squares[i] * inverse)
+    }
+
     /// The displacement towards the level.
     #[inline(always)]
     pub(super) fn correction<const M: usize, F: Flow<Wide, N, M>>(
@@ -122,6 +141,7 @@ impl<const N: usize> Register<N> {
         if M == 0 {
             return Vector::from_element(Wide::from_f64(0.0));
         }
+        let weights = self.weights(place);
         let (psi, multiplier) = flow.multiplier(place.t, &place.x);
         let remainder = place.whole_remainder(flow);
         let [reference, damping, noise] = &self.level;
@@ -136,12 +156,15 @@ impl<const N: usize> Register<N> {
         });
         if M == 1 {
             let square = (0..N).fold(damping[0], |sum, i| {
-                multiplier[(0, i)].fused(multiplier[(0, i)], sum)
+                (weights[i] * multiplier[(0, i)]).fused(multiplier[(0, i)], sum)
             });
             let factor = (-residual[0] / square).settled();
-            return vector(|i| multiplier[(0, i)] * factor);
+            return vector(|i| weights[i] * multiplier[(0, i)] * factor);
         }
-        lane_by_lane(&multiplier, &residual, &damping)
+        let sizes: Vector<Wide, N> = vector(|i| weights[i].sqrt());
+        let scaled = Matrix::<Wide, M, N>::from_fn(|m, i| multiplier[(m, i)] * sizes[i]);
+        let displacement = lane_by_lane(&scaled, &residual, &damping);
+        vector(|i| sizes[i] * displacement[i])
     }
 
     /// Puts a place back on the level.
@@ -157,7 +180,7 @@ impl<const N: usize> Register<N> {
                 place.remainder[i] += displacement[i];
             }
             place.normalise();
-            let again = coarse(&displacement, &place.x).and(self.used());
+            let again = self.coarse(&displacement, place).and(self.used());
             if !again.any() {
                 break;
             }

@@ -1,7 +1,7 @@
-//! The ladder of step sizes of a region, h/8, h/4 … 2h, 4h …, with their propagators and bounds,
+//! The ladder of step sizes of a region, h/16, h/8 … 2h, 4h …, with their propagators and bounds,
 //! computed when they are first needed and kept for the run.
 //!
-//! A segment starts with h, about 1/|λ| of the largest eigenvalue: over h everything is smooth,
+//! A segment starts with h, about 3/|λ| of the largest eigenvalue: over h everything is smooth,
 //! and g⁗ is bounded by |f| at the start of the step. After a step the fastest modes of a stiff
 //! region have decayed, and the next one may be twice as long: on a rung above h the bound of g⁗
 //! is a row times |f| *before the last step*, max |c A³ exp(sA)| over the times s that this step
@@ -21,10 +21,10 @@ use crate::system::{Boundary, Flow, Vector};
 use super::short::{Powers, Short, powers};
 
 /// h times the spectral radius of A: from an interface to the next one, half a turn of an
-/// oscillator, in two steps.
-const REACH: f64 = 1.8;
+/// oscillator, in one step.
+const REACH: f64 = 3.25;
 /// The rung of h.
-pub(crate) const FIRST: usize = 3;
+pub(crate) const FIRST: usize = 4;
 /// There are no rungs from here on.
 const HIGHEST: usize = 64;
 /// The lowest rung is so many times smaller.
@@ -55,18 +55,18 @@ struct Switching<const N: usize> {
 #[derive(Clone, Debug)]
 pub(crate) struct Ladder<const N: usize> {
     pub(super) coefficients: Coefficients<N>,
-    /// h/8
+    /// h/16
     lowest: f64,
     /// By rung.
     sizes: [f64; HIGHEST],
-    /// 8/h
+    /// 16/h
     per_part: f64,
     /// By rung.
     flows: Vec<Propagator<N>>,
     /// Aᵏ⁻¹/k!
     powers: Box<Powers<N>>,
-    /// Over the other eighths of h: 3/8, 5/8, 6/8 and 7/8.
-    eighths: [Option<Propagator<N>>; PARTS],
+    /// Over those sixteenths of h that are no rungs.
+    sixteenths: [Option<Propagator<N>>; PARTS],
     switching: Vec<Switching<N>>,
 }
 
@@ -97,7 +97,7 @@ impl<const N: usize> Ladder<N> {
             sizes: std::array::from_fn(|rung| step / PARTS as f64 * (1u64 << rung) as f64),
             per_part: PARTS as f64 / step,
             flows,
-            eighths: [const { None }; PARTS],
+            sixteenths: [const { None }; PARTS],
             switching: Vec::new(),
         };
         let sides = <F::Boundary as Boundary<f64, N>>::SIDES;
@@ -129,16 +129,16 @@ impl<const N: usize> Ladder<N> {
         }
     }
 
-    /// max |c A³ exp(sA)| over 0 ≤ s ≤ h: on each quarter by the sum of the terms of its series.
+    /// max |c A³ exp(sA)| over 0 ≤ s ≤ h: on each sixteenth by the sum of the terms of its series.
     fn fresh(&self, gradient: &Vector<f64, N>) -> Vector<f64, N> {
         const TERMS: u32 = 14;
         let a = &self.coefficients.matrix;
-        let quarter = &self.flows[FIRST - 2];
+        let sixteenth = &self.flows[0];
         let mut row = times(a, &times(a, &times(a, &(*gradient).into())));
         let mut largest = Vector::<f64, N>::zeros();
-        for part in 0..4 {
+        for part in 0..PARTS {
             if part > 0 {
-                row = quarter.transposed_roughly(&row);
+                row = sixteenth.transposed_roughly(&row);
             }
             let mut term = row;
             let mut sum = [0.0; N];
@@ -146,7 +146,7 @@ impl<const N: usize> Ladder<N> {
                 for (sum, term) in sum.iter_mut().zip(&term) {
                     *sum += term.abs();
                 }
-                let factor = self.size(FIRST - 2) * inverse(k);
+                let factor = self.lowest * inverse(k);
                 term = times(a, &term).map(|entry| entry * factor);
             }
             largest = largest.sup(&Vector::from(sum));
@@ -173,7 +173,8 @@ impl<const N: usize> Ladder<N> {
     fn settled(&self, gradient: &Vector<f64, N>, rung: usize) -> Vector<f64, N> {
         const POINTS: usize = 13;
         const MARGIN: f64 = 1.25;
-        let between = self.size(rung) / (2 * PARTS) as f64;
+        // half of that
+        let between = self.size(rung) * (1.0 / 16.0);
         // first what is fast is left out, then the powers of A are taken
         let decayed = self.flows[rung - 1].transposed(&pairs(gradient));
         let mut row = self.third(&decayed);
@@ -244,24 +245,16 @@ impl<const N: usize> Ladder<N> {
         size_of(&switching.rate, x) + switching.offset
     }
 
-    /// The flow over the multiple of h/8 nearest to 0 ≤ τ ≤ h, and what is left of τ.
+    /// The flow over the multiple of h/16 nearest to 0 ≤ τ ≤ h, and what is left of τ.
     pub(crate) fn node(&mut self, state: &State<N>, tau: f64) -> (State<N>, f64, f64) {
         let number = ((tau * self.per_part + 0.5) as usize).min(PARTS);
         let offset = number as f64 * self.lowest;
         let state = match number {
             0 => *state,
-            1 => self.flows[0].apply(state),
-            2 => self.flows[1].apply(state),
-            4 => self.flows[2].apply(state),
-            PARTS => self.flows[3].apply(state),
+            _ if number.is_power_of_two() => self.flows[number.ilog2() as usize].apply(state),
             _ => {
                 let flows = &self.flows;
-                let flow = self.eighths[number].get_or_insert_with(|| match number {
-                    3 => flows[1].after(&flows[0]),
-                    5 => flows[2].after(&flows[0]),
-                    6 => flows[2].after(&flows[1]),
-                    _ => flows[2].after(&flows[1].after(&flows[0])),
-                });
+                let flow = self.sixteenths[number].get_or_insert_with(|| composed(flows, number));
                 flow.apply(state)
             }
         };
@@ -305,6 +298,14 @@ impl<const N: usize> Ladder<N> {
         let (node, _, rest) = self.node(&state, rest);
         self.short(node).after(rest)
     }
+}
+
+/// The flow over `number` times the lowest step, of those over its powers of two.
+#[cold]
+fn composed<const N: usize>(flows: &[Propagator<N>], number: usize) -> Propagator<N> {
+    let mut bits = (0..flows.len()).filter(|bit| number >> bit & 1 == 1);
+    let first = bits.next().unwrap_or_default();
+    bits.fold(flows[first].clone(), |flow, bit| flows[bit].after(&flow))
 }
 
 /// Σ rowⱼ vⱼ

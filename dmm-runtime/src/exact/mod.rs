@@ -1,13 +1,11 @@
 //! The exact flow of a region whose field is affine, ẋ = A x + b: propagators over steps of many
-//! sizes, and bounds of what the interfaces' switching functions do in a step.
+//! sizes, and bounds of how the interfaces' switching functions bend in a step.
 
-mod bounds;
 mod ladder;
 mod pair;
 mod propagator;
 mod short;
 
-pub(crate) use bounds::{Bend, Curve, Glance, Reading};
 pub(crate) use ladder::{FIRST, Ladder, Ladders};
 
 use crate::system::{Boundary, Flow};

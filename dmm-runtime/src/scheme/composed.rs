@@ -214,15 +214,18 @@ where
 
     const ORDER: usize = ORDER;
 
-    /// The rounding errors of all sub-steps of a few long steps are above that of evaluating ψ.
-    const CORRECTION_INTERVAL: u64 = 1;
-
     fn step_size(&self) -> f64 {
         self.step_size
     }
 
     fn corrects_level(&self) -> bool {
         self.level_correction
+    }
+
+    /// The rounding errors of all sub-steps of a few long steps are above that of evaluating ψ.
+    #[inline(always)]
+    fn correction_interval<const N: usize>(_memory: &Self::Memory<N>) -> u64 {
+        1
     }
 
     fn begin<const N: usize, const M: usize, F: Flow<f64, N, M>>(

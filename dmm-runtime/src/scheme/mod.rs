@@ -60,10 +60,6 @@ pub trait OneStep: Clone + Sync {
     /// The order p of accuracy.
     const ORDER: usize;
 
-    /// Full steps between corrections of the level, and of the renormalisation of the state's
-    /// remainder; at most 256.
-    const CORRECTION_INTERVAL: u64 = 32;
-
     /// The step size τ of uniform steps.
     fn step_size(&self) -> f64;
 
@@ -77,6 +73,13 @@ pub trait OneStep: Clone + Sync {
         t: f64,
         x: &Vector<f64, N>,
     ) -> Self::Memory<N>;
+
+    /// Full steps between corrections of the level, and renormalisations of the state's
+    /// remainder, with what is known by now: a power of two, at most 256.
+    #[inline(always)]
+    fn correction_interval<const N: usize>(_memory: &Self::Memory<N>) -> u64 {
+        32
+    }
 
     /// The increment of a full step: τ is the step size up to rounding errors of the time, and
     /// the flow and its segment are those of `memory`. By default the same as of any other step.

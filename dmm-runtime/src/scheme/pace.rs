@@ -12,6 +12,11 @@ use crate::system::{Flow, Vector};
 /// Coefficients: enough for order 8.
 const COEFFICIENTS: usize = 10;
 
+/// Coefficients relative to the state beyond these are about to leave the range of doubles.
+const IN_RANGE: std::ops::Range<f64> = 1e-280..1e280;
+/// The last coefficient of a polynomial is larger; that of a series that underflows is not.
+const FADING: f64 = 1e-200;
+
 /// A tolerance, for a scheme of order p.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pacer<const N: usize> {
@@ -49,15 +54,48 @@ impl<const N: usize> Pacer<N> {
         }
         let c = &series.as_ref()[..N];
         self.grow(c);
-        let sum: f64 = [p, p + 1]
+        let rate = |k: usize| self.root(c, k);
+        let in_range = |&k: &usize| IN_RANGE.contains(&self.largest(c, k));
+        let square =
+            match (1..=p + 1).rev().find(in_range) {
+                Some(k) if k > p => 0.5 * (rate(p) + rate(p + 1)),
+                // of a polynomial
+                Some(k) if self.largest(c, k + 1) == 0.0 && self.largest(c, k) > FADING => {
+                    if k == p { 0.5 * rate(p) } else { 0.0 }
+                }
+                // the highest order that is neither lost to underflow nor to overflow
+                Some(k) => rate(k),
+                None if (1..=p + 1).all(|k| self.largest(c, k) == 0.0) => 0.0,
+                None => f64::NAN,
+            };
+        square.sqrt() * self.factor
+    }
+
+    /// The largest |cₖ| relative to the size of its component.
+    fn largest(&self, c: &[[f64; COEFFICIENTS]], k: usize) -> f64 {
+        let parts = c
             .iter()
-            .map(|&k| {
-                let parts = c.iter().zip(&self.size).map(|(c, size)| c[k] / size);
-                let square: f64 = parts.map(|part| part * part).sum();
-                square.powf(1.0 / k as f64)
-            })
-            .sum();
-        (0.5 * sum).sqrt() * self.factor
+            .zip(&self.size)
+            .map(|(c, size)| (c[k] / size).abs());
+        // a NaN must not be lost
+        parts.fold(
+            0.0,
+            |largest, part| if part <= largest { largest } else { part },
+        )
+    }
+
+    /// ‖cₖ‖^{2/k}
+    fn root(&self, c: &[[f64; COEFFICIENTS]], k: usize) -> f64 {
+        let largest = self.largest(c, k);
+        if largest == 0.0 {
+            return 0.0;
+        }
+        let parts = c
+            .iter()
+            .zip(&self.size)
+            .map(|(c, size)| c[k] / size / largest);
+        let square: f64 = parts.map(|part| part * part).sum();
+        (largest * square.sqrt()).powf(2.0 / k as f64)
     }
 
     /// Lets sizes grow with the components; one that begins at zero is as large as its slope

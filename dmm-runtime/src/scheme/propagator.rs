@@ -46,6 +46,12 @@ impl<const N: usize> Propagator<N> {
         Self { linear, offset }
     }
 
+    /// Whether an increment may be more than a small part of the state.
+    pub(super) fn is_long(&self) -> bool {
+        const SMALL: f64 = 1.0 / 64.0;
+        self.linear.amax() > SMALL
+    }
+
     /// The increment from `x0`.
     #[inline]
     pub(super) fn increment(&self, x0: &Vector<f64, N>) -> Vector<f64, N> {

@@ -101,6 +101,8 @@ pub struct Memory<const N: usize> {
     sweeps: Sweeps<N>,
     /// Of a linear flow.
     propagator: Option<Propagator<N>>,
+    /// Whether steps are so long that their rounding errors soon are above that of evaluating ψ.
+    long: bool,
 }
 
 impl<const N: usize> Memory<N> {
@@ -221,13 +223,23 @@ impl OneStep for Symmetric {
         _t: f64,
         _x: &Vector<f64, N>,
     ) -> Memory<N> {
+        let propagator = match F::SOLVABILITY {
+            Solvability::Linear => Propagator::new(flow, self.step_size),
+            Solvability::Affine | Solvability::Nonlinear => None,
+        };
         Memory {
             increments: History::new(),
             sweeps: Sweeps::new(),
-            propagator: match F::SOLVABILITY {
-                Solvability::Linear => Propagator::new(flow, self.step_size),
-                Solvability::Affine | Solvability::Nonlinear => None,
-            },
+            long: propagator.as_ref().is_none_or(Propagator::is_long),
+            propagator,
+        }
+    }
+
+    #[inline(always)]
+    fn correction_interval<const N: usize>(memory: &Memory<N>) -> u64 {
+        match memory.long && !memory.sweeps.enough {
+            true => 8,
+            false => 32,
         }
     }
 

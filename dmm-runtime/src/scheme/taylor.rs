@@ -80,9 +80,9 @@ impl Taylor {
     /// code is compiled for.
     pub(crate) fn order(&self) -> usize {
         match self.tolerance {
-            tolerance if tolerance >= 1e-7 => 10,
-            tolerance if tolerance >= 1e-11 => 16,
-            _ => 24,
+            tolerance if tolerance >= 1e-7 => 12,
+            tolerance if tolerance >= 2e-12 => 18,
+            _ => 22,
         }
     }
 
@@ -188,7 +188,10 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, F,
                 });
             }
             let state_after = state.after(&increment);
-            state = level.reached(flow, next, state_after, scheme.corrects_level());
+            state = match scheme.corrects_level() {
+                true => level.reached(flow, next, state_after, &increment),
+                false => state_after.normalised(),
+            };
             (time, before) = (next, wanted);
         }
         Ok(state.rounded())

@@ -43,7 +43,7 @@ impl Order for usize {
 }
 
 /// Largest number of coefficients.
-pub(crate) const MOST_COEFFICIENTS: usize = 25;
+pub(crate) const MOST_COEFFICIENTS: usize = 23;
 
 /// 1/k
 const INVERSE: [f64; MOST_COEFFICIENTS + 1] = {

@@ -1,6 +1,6 @@
 //! One order after the other: as straight-line code, or in a loop.
 
-use super::Order;
+use super::{MOST_COEFFICIENTS, Order};
 
 /// Something whose series advance by one order at a time.
 pub trait Coefficients {
@@ -42,7 +42,7 @@ impl Unroll for Rolled {
 
     #[inline(always)]
     fn choose<C: Choice>(_order: usize, choice: C) -> C::Output {
-        choice.with::<25>()
+        choice.with::<MOST_COEFFICIENTS>()
     }
 
     #[inline(always)]
@@ -94,9 +94,9 @@ impl Unroll for Straight {
     #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
         match order {
-            10 => choice.with::<11>(),
-            16 => choice.with::<17>(),
-            _ => choice.with::<25>(),
+            12 => choice.with::<13>(),
+            18 => choice.with::<19>(),
+            _ => choice.with::<MOST_COEFFICIENTS>(),
         }
     }
 
@@ -106,6 +106,6 @@ impl Unroll for Straight {
         _end: usize,
     ) {
         orders!(series, FROM, TO, LESS:
-            0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24);
+            0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22);
     }
 }

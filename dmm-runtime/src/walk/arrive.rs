@@ -9,7 +9,7 @@
 //! hold to some thirty digits, and transitions add nothing to the level.
 
 use crate::error::Error;
-use crate::level::{Level, switching_in_pairs};
+use crate::level::{Level, Weights, switching_in_pairs};
 use crate::linear::{dot, is_finite};
 use crate::observer::Observer;
 use crate::scheme::Taylor;
@@ -175,9 +175,10 @@ where
         /// rounding error of doubles, and after one more of pairs.
         const SMALL: f64 = 1e-11;
         let corrects = self.scheme.corrects_level();
+        let weights = Weights::new(&state.x, &(state.x - self.state.x));
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
-                true => level.correction(flow, time, &state),
+                true => level.correction(flow, time, &state, &weights),
                 false => Vector::zeros(),
             };
             let displacement = approach.remove(&mut time, &mut state, &off);
@@ -188,7 +189,8 @@ where
                 let off = match corrects {
                     true => {
                         let (_, multiplier) = flow.multiplier(time.value, &state.x);
-                        level.towards(&multiplier, &level.residual(flow, time, &state))
+                        let residual = level.residual(flow, time, &state);
+                        level.towards(&multiplier, &residual, &weights)
                     }
                     false => Vector::zeros(),
                 };

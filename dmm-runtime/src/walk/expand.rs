@@ -14,7 +14,8 @@ use crate::system::{Boundary, Flow, Side, System};
 use crate::time::Time;
 use crate::transition::Locator;
 use crate::walk::arrive::Found;
-use crate::walk::glance::{Glance, Glimpse, NOISE};
+use crate::walk::cubic::Glance;
+use crate::walk::glance::{Glimpse, NOISE};
 use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between adaptions of the level's correction to the size of the state.
@@ -69,9 +70,9 @@ where
                 return Ended::At(SegmentEnd::Finished);
             }
             let wanted = jet.step(fraction, here.before);
-            let mut share = 1.0;
+            let mut part = Part::WHOLE;
             let (tau, time, mut state) = loop {
-                let size = share * wanted;
+                let size = part.share * wanted;
                 let Some((tau, time)) = step_to::<N, M, F>(here.time, size, (remaining, end))
                 else {
                     return Ended::Not(size);
@@ -80,22 +81,25 @@ where
                 if sides::<N, M, F>().is_empty() {
                     break (tau, time, state);
                 }
-                let band = if share < 1.0 {
-                    0.0
-                } else {
-                    self.scheme.undecided()
-                };
-                let step = (tau, time, &state);
-                match self.look_ahead::<P, M, F>(flow, jet, here, step, (fresh, band)) {
+                match self.look_ahead::<P, M, F>(
+                    flow,
+                    jet,
+                    here,
+                    (tau, time, &state),
+                    (fresh, part),
+                ) {
                     Ahead::Free => break (tau, time, state),
                     Ahead::Crossing(found) => return Ended::Before { found, tau, level },
-                    Ahead::Undecided => share = self.progress.finest,
+                    Ahead::Undecided(shorter) => part = shorter,
                 }
             };
             if self.observer.next_output().is_some() {
                 self.outputs_along::<P, M, F>(flow, &level, jet, here, (tau, time));
             }
-            state = level.reached(flow, time, state, corrects);
+            state = match corrects {
+                true => level.reached(flow, time, state, &(state.x - here.state.x)),
+                false => state.normalised(),
+            };
             if !is_finite(&state.x) {
                 return Ended::Not(tau);
             }
@@ -114,8 +118,7 @@ where
         }
     }
 
-    /// The first crossing of a step that ends at `state`, if there is one. What comes within
-    /// the part `band` of g's terms of an interface, and returns, is left undecided.
+    /// The first crossing of a step that ends at `state`, if there is one.
     #[inline(always)]
     fn look_ahead<const P: usize, const M: usize, F: Flow<f64, N, M>>(
         &mut self,
@@ -123,7 +126,7 @@ where
         jet: &mut Jet<F, N, M, P>,
         here: &Here<N>,
         (tau, time, state): (f64, Time, &State<N>),
-        (fresh, band): (Option<usize>, f64),
+        (fresh, part): (Option<usize>, Part),
     ) -> Ahead {
         let field = flow.vector_field(time.value, &state.x);
         let glimpse = Glimpse {
@@ -156,13 +159,17 @@ where
             }
         });
         match (near, once) {
-            (true, _) => self.first::<P, M, F>(flow, jet, here, tau, (fresh, band)),
+            (true, _) => match part.half() {
+                Some(half) => Ahead::Undecided(half),
+                None => self.first::<P, M, F>(flow, jet, here, tau, (fresh, part)),
+            },
             (false, Some(found)) => Ahead::Crossing(found),
             (false, None) => Ahead::Free,
         }
     }
 
-    /// The first crossing of a step by all coefficients of every g.
+    /// The first crossing of a step by all coefficients of every g. What comes as close to an
+    /// interface as the error of the step, and returns, is left undecided.
     #[cold]
     #[inline(never)]
     fn first<const P: usize, const M: usize, F: Flow<f64, N, M>>(
@@ -171,8 +178,13 @@ where
         jet: &mut Jet<F, N, M, P>,
         here: &Here<N>,
         tau: f64,
-        (fresh, band): (Option<usize>, f64),
+        (fresh, part): (Option<usize>, Part),
     ) -> Ahead {
+        let band = if part.is_finest {
+            0.0
+        } else {
+            self.scheme.undecided()
+        };
         let (t, x) = (here.time.value, &here.state.x);
         jet.expand_switching(flow, t);
         let mut first: Option<Found> = None;
@@ -194,7 +206,10 @@ where
             let (noise, band) = (noise * unit, band * size * unit);
             let horizon = first.as_ref().map_or(tau, |first| first.elapsed);
             if band > noise && dips(series, horizon, band) {
-                return Ahead::Undecided;
+                return Ahead::Undecided(Part {
+                    share: self.progress.finest,
+                    is_finest: true,
+                });
             }
             let Roots {
                 first: found,
@@ -228,7 +243,10 @@ where
             let time = Time::new(t);
             let elapsed = time.since(here.time).max(0.0).min(tau);
             let state = here.state.after(&jet.increment(elapsed));
-            let state = level.reached(flow, time, state, corrects);
+            let state = match corrects {
+                true => level.reached(flow, time, state, &(state.x - here.state.x)),
+                false => state,
+            };
             let point = Point {
                 t,
                 time,
@@ -280,9 +298,35 @@ enum Ahead {
     Free,
     /// An interface.
     Crossing(Found),
-    /// It comes so close to an interface that a step over a smaller part of the radius of
-    /// convergence, whose error is below rounding, has to decide.
-    Undecided,
+    /// It comes so close to an interface that a shorter step has to decide.
+    Undecided(Part),
+}
+
+/// A part of the step that the tolerance allows.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    share: f64,
+    /// Whether the error of such a step is below rounding.
+    is_finest: bool,
+}
+
+impl Part {
+    const WHOLE: Self = Self {
+        share: 1.0,
+        is_finest: false,
+    };
+
+    /// Half of it, of which a glance may tell what it does not of the whole: that costs less than
+    /// to look at all coefficients of g, until it has been tried in vain.
+    #[inline(always)]
+    fn half(self) -> Option<Self> {
+        const SMALLEST: f64 = 0.25;
+        let half = Self {
+            share: 0.5 * self.share,
+            ..self
+        };
+        (half.share >= SMALLEST && !self.is_finest).then_some(half)
+    }
 }
 
 /// How the steps ended.

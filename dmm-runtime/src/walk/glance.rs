@@ -1,6 +1,6 @@
-//! Whether an interface is reached in a step, from the values and the slopes of g at both ends.
+//! Whether an interface is reached in a Taylor step.
 //!
-//! The cubic H with these values and slopes differs from g = Σ gⱼ tʲ on a step over h by
+//! Along the step g = Σ gⱼ tʲ differs from the [`Cubic`] H through its ends by
 //!
 //! |g − H| ≤ s² (1 − s)² Σ (j − 3)(j − 2)/2 · |gⱼ| hʲ over j ≥ 4, s = t/h.
 //!
@@ -9,29 +9,15 @@
 //! most (1/(1 − φ)³ − 1 − 3φ) a with a = |g₄| h⁴. So that a coefficient that happens to vanish
 //! does no harm, a is the largest of three: |g₄| h⁴, |g₅| h⁵/φ, and the difference of the
 //! coefficients of order 2 of g and H, which is Σ (j − 3) gⱼ hʲ.
-//!
-//! As s (1 − s) ≤ 1/4, to be off by s² (1 − s)² C is less than to have the two inner Bernstein
-//! coefficients of H off by C/12. Where all four are positive in spite of that, g is positive
-//! throughout; where they fall in spite of it, g has one root at most, and a slope there.
 
 use crate::scalar::Scalar;
 use crate::series::jet::FIRST;
+use crate::walk::cubic::{Cubic, Doubt, Glance, Reading};
 
 /// The estimate of the terms that are not known counts so many times.
 const MARGIN: f64 = 1.5;
 /// g this many rounding errors of its terms away from zero is not distinguished from it.
 pub(super) const NOISE: f64 = 16.0;
-
-/// What the ends of a step tell of an interface.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum Glance {
-    /// It is not reached.
-    Out,
-    /// It is crossed once, about so long after the start.
-    Once(f64),
-    /// It may be reached.
-    Near,
-}
 
 /// A step as the interfaces see it.
 #[derive(Clone, Copy, Debug)]
@@ -75,41 +61,24 @@ impl Glimpse {
         fresh: bool,
     ) -> Glance {
         let Self { tau, decay } = self;
-        let (third, square) = (tau * (1.0 / 3.0), tau * tau);
-        let (b0, b3) = (sign * c[0], sign * value);
-        let b1 = (sign * c[1]).fused(third, b0);
-        let b2 = (-sign * slope).fused(third, b3);
+        let reading = |value: f64, rate: f64| Reading {
+            value: sign * value,
+            rate: sign * rate,
+        };
+        let cubic = Cubic::new(reading(c[0], c[1]), reading(value, slope), tau);
+        let [b0, b1, b2, b3] = cubic.coefficients;
+        let square = tau * tau;
         // b₀ − 2b₁ + b₂ is a third of H's coefficient of order 2
         let bend = 3.0 * (b0 - (b1 + b1) + b2) - sign * c[2] * square;
         let fourth = square * square;
         let (fourth_term, fifth_term) = (c[4].abs() * fourth, c[5].abs() * (fourth * tau));
         let others = fourth_term.max(fifth_term * decay.inverse).max(bend.abs());
-        let sum = decay
-            .rest
-            .fused(others, 3.0f64.fused(fifth_term, fourth_term));
-        let noise = NOISE * f64::ROUNDING * (b0.abs() + b3.abs());
-        let rest = sum.fused(1.0 / 12.0, noise);
-        if b1 > rest && b2 > rest && b3 > 0.0 && (b0 > 0.0 || fresh) {
-            return Glance::Out;
-        }
-        let falls = b0 - b1 > rest && b1 - b2 > rest + rest && b2 - b3 > rest;
-        match b0 > 0.0 && b3 <= 0.0 && falls {
-            true => Glance::Once(inverse(tau, (b0, sign * c[1]), (b3, sign * slope))),
-            false => Glance::Near,
-        }
-    }
-}
-
-/// About where a function falls through zero, from its values and slopes at 0 and `tau`: the
-/// cubic of the inverse function, or where that leaves the step, the chord.
-#[inline]
-fn inverse(tau: f64, (b0, d0): (f64, f64), (b3, d3): (f64, f64)) -> f64 {
-    let change = b3 - b0;
-    let u = -b0 / change;
-    let v = 1.0 - u;
-    let cubic = tau * (u * u * (3.0 - 2.0 * u)) + change * (u * v) * (v / d0 - u / d3);
-    match cubic > 0.0 && cubic <= tau {
-        true => cubic,
-        false => tau * u,
+        let known = 3.0f64.fused(fifth_term, fourth_term);
+        let doubt = Doubt {
+            truncation: decay.rest.fused(others, known),
+            noise: NOISE * f64::ROUNDING * (b0.abs() + b3.abs()),
+            ends: 0.0,
+        };
+        cubic.glance(doubt, fresh)
     }
 }

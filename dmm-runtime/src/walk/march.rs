@@ -1,12 +1,15 @@
 //! A segment by the exact flow of an affine field: steps as long as the interfaces allow, and
 //! crossings located on the flow itself.
 //!
-//! A step is taken where the bounds of [`crate::exact`] exclude a crossing, or prove that there is
-//! one. Where they do neither, it is made shorter, down to the lowest rung of the ladder; there
-//! the power series of g, which converges to rounding, decides like in a Taylor step.
+//! Along ẋ = A x + b the fourth derivative of g = c·x + γt + d is c A³ f with f(t) = exp(tA) f(0),
+//! and so bounded by a constant row times |f| at an earlier time: that makes a glance at the
+//! [`Cubic`] through the ends of a step certain. A step is taken where it excludes a crossing, or
+//! proves that there is one. Where it does neither, the step is made shorter, down to the lowest
+//! rung of the ladder; there the power series of g, which converges to rounding, decides like in
+//! a Taylor step.
 
 use crate::error::{Error, StepFailure};
-use crate::exact::{Bend, Curve, FIRST, Glance, Ladder, Reading};
+use crate::exact::{FIRST, Ladder};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
@@ -19,6 +22,7 @@ use crate::state::State;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
+use crate::walk::cubic::{Cubic, Doubt, Glance, Reading};
 use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between looks at the level.
@@ -238,7 +242,7 @@ where
         let mut course = Course::Free { room: true };
         let (tau, x) = (stretch.tau, &march.at.state.x);
         let rung = stretch.rung.max(march.rung_before);
-        let fourth_power = (tau * tau) * (tau * tau) * (1.0 / 288.0);
+        let fourth_power = (tau * tau) * (tau * tau) * (1.0 / 24.0);
         for (i, &(interface, _)) in sides::<N, M, F>().iter().enumerate() {
             let fourth = match rung > FIRST {
                 true => ladder.fourth_later(i, rung, &march.field_before),
@@ -247,21 +251,20 @@ where
             let size = flow
                 .boundary()
                 .switching_size(interface, self.time.value, x);
-            let bend = Bend {
+            let noise = NOISE * f64::ROUNDING * (size + tau * ladder.rate_size(i, x));
+            let doubt = Doubt {
                 truncation: fourth * fourth_power,
-                noise: NOISE * f64::ROUNDING * (size + tau * ladder.rate_size(i, x)),
+                noise,
+                ends: noise,
             };
-            let curve = Curve {
-                start: march.at.readings.as_ref()[i],
-                end: stretch.end.readings.as_ref()[i],
-                tau,
-            };
-            let glance = curve.glance(bend, march.fresh == Some(interface));
+            let (start, end) = (&march.at.readings, &stretch.end.readings);
+            let cubic = Cubic::new(start.as_ref()[i], end.as_ref()[i], tau);
+            let glance = cubic.glance(doubt, march.fresh == Some(interface));
             course = match (glance, course) {
-                (Glance::Out { room }, Course::Free { room: others }) => Course::Free {
-                    room: room && others,
+                (Glance::Out, Course::Free { room }) => Course::Free {
+                    room: room && cubic.has_room(doubt),
                 },
-                (Glance::Out { .. }, crossing) => crossing,
+                (Glance::Out, crossing) => crossing,
                 (Glance::Once(elapsed), Course::Free { .. }) => Course::Crossing(Found {
                     side: i,
                     elapsed,
@@ -400,7 +403,8 @@ where
         state: State<N>,
     ) -> Option<State<N>> {
         let strays = self.scheme.corrects_level() && level.strays(flow, time, &state);
-        strays.then(|| put_back(flow, level, time, state)).flatten()
+        let put_back = || put_back(flow, level, time, state, &self.state.x);
+        strays.then(put_back).flatten()
     }
 
     /// Serves the output times up to `end`, the end of a step.
@@ -438,7 +442,8 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> March<F, N, M> {
     }
 }
 
-/// The state on its level, if it has left that by the size of ψ's terms at present too.
+/// The state on its level, if it has left that by the size of ψ's terms at present too; the step
+/// started from `before`.
 #[cold]
 #[inline(never)]
 fn put_back<const N: usize, const M: usize, F: Flow<f64, N, M>>(
@@ -446,10 +451,11 @@ fn put_back<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     level: &mut Level<N, M>,
     time: Time,
     state: State<N>,
+    before: &Vector<f64, N>,
 ) -> Option<State<N>> {
     level.rescale(flow, time.value, &state);
     let strays = level.strays(flow, time, &state);
-    strays.then(|| level.reached(flow, time, state, true))
+    strays.then(|| level.reached(flow, time, state, &(state.x - before)))
 }
 
 /// The interfaces that bound the region of a flow, with its sides.

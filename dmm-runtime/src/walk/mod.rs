@@ -6,6 +6,7 @@
 
 mod adapt;
 mod arrive;
+mod cubic;
 mod expand;
 mod glance;
 mod interfaces;

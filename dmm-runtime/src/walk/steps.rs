@@ -1,7 +1,7 @@
 //! A segment: steps in one region until its boundary or the end time is reached.
 
 use crate::error::{Error, StepFailure};
-use crate::level::Level;
+use crate::level::{Level, Weights};
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
 use crate::scheme::{Maps, OneStep, Step};
@@ -82,7 +82,8 @@ where
                 Err(failure) => break Err(failure),
             };
             let mut next = state.after(&increment);
-            let checks = Obs::LISTENS || node.is_multiple_of(Sch::CORRECTION_INTERVAL);
+            let corrects = node & (Sch::correction_interval(&memory) - 1) == 0;
+            let checks = Obs::LISTENS || corrects;
             if checks && !is_finite(&next.x) {
                 (state, node) = if Obs::LISTENS { (state, node) } else { finite };
                 break Err(StepFailure::NotFinite);
@@ -99,9 +100,12 @@ where
                 }
                 self.outputs(flow, tau, self.node_time::<M, F>(node))?;
             }
-            if node.is_multiple_of(Sch::CORRECTION_INTERVAL) {
+            if corrects {
                 next = match corrects_level {
-                    true => on_level(flow, level, next, t1, node.is_multiple_of(RESCALING)),
+                    true => {
+                        let rescales = node.is_multiple_of(RESCALING);
+                        on_level(flow, level, (next, increment), t1, rescales)
+                    }
                     false => next.normalised(),
                 };
                 finite = (next, node + 1);
@@ -213,7 +217,8 @@ where
             return Err(self.failure(StepFailure::NotFinite, tau));
         }
         if self.scheme.map().corrects_level() {
-            state.remainder += level.correction(flow, time, &state);
+            let weights = Weights::new(&state.x, increment);
+            state.remainder += level.correction(flow, time, &state, &weights);
         }
         self.state = state.normalised();
         self.time = time;
@@ -258,12 +263,12 @@ where
     }
 }
 
-/// A state put back on its level.
+/// A state that an increment led to, put back on its level.
 #[inline(never)]
 fn on_level<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     flow: &F,
     level: &mut Level<N, M>,
-    state: State<N>,
+    (state, increment): (State<N>, Vector<f64, N>),
     t: f64,
     rescales: bool,
 ) -> State<N> {
@@ -273,6 +278,7 @@ fn on_level<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     }
     // into x at once: left in the remainder, which the flow does not turn, it would later be
     // taken off along a Λ that has turned away
-    state.remainder += level.correction(flow, Time::new(t), &state);
+    let weights = Weights::new(&state.x, &increment);
+    state.remainder += level.correction(flow, Time::new(t), &state, &weights);
     state.normalised()
 }

@@ -216,11 +216,13 @@ impl Setting {
 
 /// Every scheme, at settings for problems whose time scale is about 1; those that choose their
 /// steps also at a loose tolerance.
-const SETTINGS: [Setting; 7] = [
+const SETTINGS: [Setting; 9] = [
     Setting::steps("Symmetric", Method::Symmetric, 0.02),
     Setting::steps("Composed<4>", Method::Composed4, 0.04),
     Setting::steps("Composed<6>", Method::Composed6, 0.08),
     Setting::steps("Composed<8>", Method::Composed8, 0.08),
+    Setting::tolerance("Symmetric 1e-5", Method::SymmetricAdaptive, 1e-5),
+    Setting::tolerance("Composed<8> 1e-9", Method::Composed8Adaptive, 1e-9),
     Setting::tolerance("Taylor 1e-3", Method::Taylor, 1e-3),
     Setting::tolerance("Taylor 1e-12", Method::Taylor, 1e-12),
     Setting::tolerance("Best 1e-12", Method::Best, 1e-12),

@@ -98,3 +98,53 @@ fn what_makes_no_members_is_refused() {
     assert!(initial("z=1..2:3").contains("there are x, y"));
     assert!(refusal(&["ensemble", "elliptic", "--members", "nosuch.csv"]).contains("cannot read"));
 }
+
+#[test]
+#[cfg(not(feature = "parquet"))]
+fn parquet_has_to_be_asked_for() {
+    let said = refusal(&["ensemble", "elliptic", "--out", "ends.parquet"]);
+    assert!(said.contains("`--features parquet`"), "{said}");
+}
+
+#[test]
+#[cfg(feature = "parquet")]
+fn a_parquet_file_says_the_same_as_csv() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+
+    let directory = tempfile::tempdir().unwrap();
+    let members = directory.path().join("members.csv");
+    fs::write(&members, "x,k_below\n1,3\n2,three\n0.5,2\n").unwrap();
+    let [csv, parquet] = ["ends.csv", "ends.parquet"].map(|name| directory.path().join(name));
+    for out in [&csv, &parquet] {
+        let paths = [&members, out].map(|path| path.to_str().unwrap());
+        let scheme = [
+            "--scheme",
+            "taylor",
+            "--members",
+            paths[0],
+            "--out",
+            paths[1],
+        ];
+        let call = pws(&[["ensemble", "harmonic"].as_slice(), &scheme].concat());
+        texts(call, 1);
+    }
+    let reader = SerializedFileReader::new(fs::File::open(&parquet).unwrap()).unwrap();
+    let written = reader.get_row_iter(None).unwrap().map(|row| {
+        let row = row.unwrap();
+        let fields = row.get_column_iter().map(|(name, field)| {
+            let text = match field {
+                Field::Null => String::new(),
+                Field::Str(text) => text.clone(),
+                Field::Long(count) => count.to_string(),
+                Field::Double(value) => value.to_string(),
+                other => panic!("{name}: {other:?}"),
+            };
+            (name.clone(), text)
+        });
+        fields.collect::<Vec<_>>()
+    });
+    let expected = rows(&fs::read_to_string(&csv).unwrap());
+    assert_eq!(expected.len(), 3);
+    assert_eq!(written.collect::<Vec<_>>(), expected);
+}

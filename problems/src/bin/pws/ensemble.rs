@@ -1,24 +1,24 @@
 //! `pws ensemble PROBLEM`: from many initial states and parameters to where they end.
 
 mod members;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod results;
+mod table;
 
-use std::cell::RefCell;
-use std::collections::VecDeque;
-use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use dmm_problems::method::Method;
-use dmm_problems::problem::{Arrival, Crew, Fate, Problem, Run, Start};
-use indicatif::ProgressBar;
+use dmm_problems::problem::{Crew, Problem, Run, Start};
 
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{self, Csv};
-use crate::progress;
+use crate::output;
 use crate::scheme::{self, SchemeOptions};
-use members::{Members, Row};
+use members::Members;
+use results::{Results, Waiting};
 
 /// What to integrate.
 #[derive(clap::Args)]
@@ -42,7 +42,8 @@ pub(crate) struct Arguments {
     /// A CSV file with a member in each row, its columns named after states and parameters.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["parameters", "initial"])]
     members: Option<PathBuf>,
-    /// The file of results [default: output/PROBLEM/ensemble.csv].
+    /// The file of results, .csv or, with the feature `parquet`, .parquet [default:
+    /// output/PROBLEM/ensemble.csv].
     #[arg(long)]
     out: Option<PathBuf>,
     /// Threads [default: one for each core].
@@ -106,9 +107,6 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     results.finish(problem, &run, seconds)
 }
 
-/// Rows that are read and not yet written; a bad one has its place among the others.
-type Waiting = RefCell<VecDeque<Row>>;
-
 /// Integrates all members that are valid, and writes all.
 fn integrate(
     problem: &dyn Problem,
@@ -133,130 +131,6 @@ fn integrate(
     });
     written?;
     results.take(&waiting, None)
-}
-
-/// The file of results.
-struct Results {
-    csv: Csv,
-    regions: Vec<&'static str>,
-    bar: ProgressBar,
-    members: u64,
-    failures: u64,
-    steps: u64,
-    transitions: u64,
-    /// Numbers in the columns of a member's start and of its end.
-    widths: (usize, usize),
-}
-
-impl Results {
-    fn create(problem: &dyn Problem, path: PathBuf, count: Option<u64>) -> Result<Self, Failure> {
-        let own = |name: &&str| (*name).to_owned();
-        let states = problem.states();
-        let parameters = problem.parameters();
-        let mut header = vec!["member".to_owned()];
-        header.extend(parameters.iter().map(|(name, _)| own(name)));
-        header.extend(states.iter().map(|name| format!("{name}(0)")));
-        header.extend(["t", "region"].iter().map(own));
-        header.extend(states.iter().map(own));
-        header.extend(["steps", "transitions", "failure"].iter().map(own));
-        Ok(Self {
-            csv: Csv::create(path, header)?,
-            regions: problem.regions(),
-            bar: progress::counter(count),
-            members: 0,
-            failures: 0,
-            steps: 0,
-            transitions: 0,
-            widths: (parameters.len() + states.len(), states.len()),
-        })
-    }
-
-    /// Writes the next member with its fate and the bad rows before it; without a fate those that
-    /// are left.
-    fn take(&mut self, waiting: &Waiting, mut fate: Option<Fate>) -> Result<(), Failure> {
-        let ends_with_member = fate.is_some();
-        loop {
-            // the members are not borrowed while the row is written
-            let next = waiting.borrow_mut().pop_front();
-            let Some(row) = next else { break };
-            match row {
-                Err(failure) => self.write(None, None, &failure)?,
-                Ok(start) => {
-                    let fate = fate.take();
-                    let error = fate.as_ref().and_then(|fate| fate.error.as_ref());
-                    let failure = error.map(ToString::to_string).unwrap_or_default();
-                    let arrival = fate.as_ref().and_then(|fate| fate.arrival.as_ref());
-                    self.write(Some(&start), arrival, &failure)?;
-                    if ends_with_member {
-                        break;
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn write(
-        &mut self,
-        start: Option<&Start>,
-        arrival: Option<&Arrival>,
-        failure: &str,
-    ) -> Result<(), Failure> {
-        let mut fields = vec![self.members.to_string()];
-        match start {
-            Some(Start {
-                parameters,
-                initial,
-            }) => fields.extend(parameters.iter().chain(initial).map(f64::to_string)),
-            None => fields.extend((0..self.widths.0).map(|_| String::new())),
-        }
-        match arrival {
-            Some(arrival) => {
-                let region = self
-                    .regions
-                    .get(arrival.region)
-                    .copied()
-                    .unwrap_or_default();
-                fields.extend([arrival.t.to_string(), region.to_owned()]);
-                fields.extend(arrival.x.iter().map(f64::to_string));
-                let counts = arrival.statistics;
-                fields.extend([counts.steps, counts.transitions].map(|count| count.to_string()));
-                self.steps += counts.steps;
-                self.transitions += counts.transitions;
-            }
-            None => fields.extend((0..self.widths.1 + 4).map(|_| String::new())),
-        }
-        fields.push(failure.to_owned());
-        self.members += 1;
-        self.failures += u64::from(!failure.is_empty());
-        self.bar.inc(1);
-        self.csv.row(fields)
-    }
-
-    fn finish(self, problem: &dyn Problem, run: &Run, seconds: f64) -> Result<(), Failure> {
-        self.bar.finish_and_clear();
-        let path = self.csv.finish()?;
-        let mut out = std::io::stdout().lock();
-        writeln!(out, "{}: {}", problem.card().name, problem.card().title)?;
-        let members = self.members;
-        writeln!(
-            out,
-            "{members} trajectories until t = {} by {}: {} steps, {} transitions",
-            output::number(run.t_end),
-            scheme::describe(run),
-            self.steps,
-            self.transitions
-        )?;
-        writeln!(out, "{:.3e} trajectories/s", members as f64 / seconds)?;
-        drop(out);
-        output::announce(&[path])?;
-        match self.failures {
-            0 => Ok(()),
-            failures => Err(Failure::Stopped(format!(
-                "{failures} of {members} trajectories failed: see the column `failure`"
-            ))),
-        }
-    }
 }
 
 /// Runs of each kind that are compared.

@@ -1,7 +1,7 @@
 //! Declarations that compile, and the diagnostics of those that do not.
 //!
-//! The expected messages are the files `ui/fail/*.stderr`; after an intended change,
-//! `TRYBUILD=overwrite cargo test -p dmm-tests --test ui` writes them anew, to be read before
+//! The expected messages are the files `fail/*.stderr`; after an intended change,
+//! `TRYBUILD=overwrite cargo test -p dmm-ui-tests` writes them anew, to be read before
 //! they are committed.
 
 use std::collections::BTreeSet;
@@ -19,13 +19,13 @@ const UNREACHABLE: &[(u16, &str)] = &[(
 #[test]
 fn wrong_declarations_are_reported_and_right_ones_compile() {
     let cases = trybuild::TestCases::new();
-    cases.pass("ui/pass/*.rs");
-    cases.compile_fail("ui/fail/*.rs");
+    cases.pass("pass/*.rs");
+    cases.compile_fail("fail/*.rs");
 }
 
 /// The files of expected messages, with their texts.
 fn expected_messages() -> Vec<(PathBuf, String)> {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("ui/fail");
+    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("fail");
     fs::read_dir(directory)
         .expect("the directory of wrong declarations")
         .map(|entry| entry.expect("a file").path())

@@ -1,0 +1,226 @@
+//! What the values and slopes of a switching function g at both ends of a step tell of it.
+//!
+//! The cubic H with these values and slopes differs from g on a step over h by
+//!
+//! |g − H| ≤ C s² (1 − s)², s = t/h, where C bounds |g⁗| h⁴/24.
+//!
+//! As s (1 − s) ≤ 1/4, that is less than to have the two inner Bernstein coefficients of H off by
+//! C/12. Where all four are positive in spite of that, g is positive throughout. The slope h dg/dt
+//! differs from that of H by C/(3√3) at most (Birkhoff & Priver, J. Math. and Phys. 46, 1967): where
+//! the coefficients fall by more than C/12 each, g falls, and has one root at most.
+//!
+//! Where neither is so, H is split: g may rise and then fall. Up to the split g is positive if the
+//! coefficients there are, each off by C/15 (the largest s² (1 − s)² as a part of the sum of all
+//! Bernstein polynomials on that part but the first). After it g falls if the coefficients do by
+//! (1 − p) C/15 each, p being the part before the split.
+
+use crate::scalar::Scalar;
+
+/// g and dg/dt at a point, positive inside the region.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Reading {
+    pub(super) value: f64,
+    pub(super) rate: f64,
+}
+
+/// How far g may be from the cubic.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Doubt {
+    /// C
+    pub(super) truncation: f64,
+    /// The rounding error of g.
+    pub(super) noise: f64,
+    /// At the ends of the step g is not distinguished from zero below this.
+    pub(super) ends: f64,
+}
+
+/// What the ends of a step tell of an interface.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Glance {
+    /// It is not reached.
+    Out,
+    /// It is crossed once, about so long after the start.
+    Once(f64),
+    /// It may be reached.
+    Near,
+}
+
+/// The cubic by its Bernstein coefficients.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cubic {
+    start: Reading,
+    end: Reading,
+    tau: f64,
+    pub(super) coefficients: [f64; 4],
+}
+
+impl Cubic {
+    /// That of a step over `tau`.
+    #[inline(always)]
+    pub(super) fn new(start: Reading, end: Reading, tau: f64) -> Self {
+        let third = tau * (1.0 / 3.0);
+        let inner_1 = start.rate.fused(third, start.value);
+        let inner_2 = (-end.rate).fused(third, end.value);
+        Self {
+            start,
+            end,
+            tau,
+            coefficients: [start.value, inner_1, inner_2, end.value],
+        }
+    }
+
+    /// A glance at the step. It is `fresh` if it starts on the interface; that root does not
+    /// count.
+    #[inline(always)]
+    pub(super) fn glance(&self, doubt: Doubt, fresh: bool) -> Glance {
+        let [b0, b1, b2, b3] = self.coefficients;
+        let rest = doubt.truncation.fused(1.0 / 12.0, doubt.noise);
+        let starts_inside = b0 > doubt.ends;
+        if b1 > rest && b2 > rest && b3 > doubt.ends && (starts_inside || fresh) {
+            return Glance::Out;
+        }
+        let slowest = (b0 - b1).min(b1 - b2).min(b2 - b3);
+        if starts_inside && b3 <= -doubt.ends && slowest > rest + doubt.noise {
+            return Glance::Once(fall(self.start, self.end, self.tau));
+        }
+        match starts_inside || fresh {
+            true => self.glance_at_parts(doubt),
+            false => Glance::Near,
+        }
+    }
+
+    /// A closer look, on both sides of a place in between.
+    #[inline(never)]
+    fn glance_at_parts(&self, doubt: Doubt) -> Glance {
+        let [b0, b1, b2, b3] = self.coefficients;
+        let off = doubt.truncation * (1.0 / 15.0);
+        for at in [0.75, 0.5, 0.25] {
+            let between = |a: f64, b: f64| (b - a).fused(at, a);
+            let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
+            let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
+            let split = between(left_2, right_1);
+            let rest = off + doubt.noise;
+            if left_1.min(left_2).min(split) <= rest {
+                continue;
+            }
+            if right_1.min(right_2) > rest && b3 > doubt.ends {
+                return Glance::Out;
+            }
+            let after = 1.0 - at;
+            let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
+            if b3 <= -doubt.ends && slowest > off.fused(after, 2.0 * doubt.noise) {
+                let tau = after * self.tau;
+                let start = Reading {
+                    value: split,
+                    rate: 3.0 * (right_1 - split) / tau,
+                };
+                return Glance::Once(at * self.tau + fall(start, self.end, tau));
+            }
+        }
+        Glance::Near
+    }
+
+    /// Whether the cubic goes on well inside for twice the step.
+    #[inline(always)]
+    pub(super) fn has_room(&self, doubt: Doubt) -> bool {
+        /// A step twice as long bends so many times as much.
+        const TWICE: f64 = 16.0;
+        let [b0, _, _, b3] = self.coefficients;
+        let (d0, d3) = (self.start.rate * self.tau, self.end.rate * self.tau);
+        let rise = b3 - b0;
+        let (square, cube) = (3.0 * rise - 2.0 * d0 - d3, d0 + d3 - 2.0 * rise);
+        let double = b0 + 2.0 * (d0 + 2.0 * (square + 2.0 * cube));
+        let triple = b0 + 3.0 * (d0 + 3.0 * (square + 3.0 * cube));
+        double.min(triple) > TWICE * doubt.truncation.fused(1.0 / 12.0, doubt.noise)
+    }
+}
+
+/// About where a function falls through zero, from its values and slopes at 0 and `tau`: the
+/// cubic of the inverse function, or where that leaves the step, the chord.
+#[inline(always)]
+fn fall(start: Reading, end: Reading, tau: f64) -> f64 {
+    let change = end.value - start.value;
+    let u = -start.value / change;
+    let v = 1.0 - u;
+    let cubic =
+        tau * (u * u * (3.0 - 2.0 * u)) + change * (u * v) * (v / start.rate - u / end.rate);
+    match cubic > 0.0 && cubic <= tau {
+        true => cubic,
+        false => tau * u,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cubic(g: impl Fn(f64) -> (f64, f64), tau: f64, fourth: f64) -> (Cubic, Doubt) {
+        let [start, end] = [0.0, tau].map(|t| {
+            let (value, rate) = g(t);
+            Reading { value, rate }
+        });
+        let doubt = Doubt {
+            truncation: fourth * tau.powi(4) / 24.0,
+            noise: 1e-15,
+            ends: 1e-15,
+        };
+        (Cubic::new(start, end, tau), doubt)
+    }
+
+    #[test]
+    fn a_dip_between_the_ends_is_never_overlooked() {
+        // cos(t − phase) + shift dips to shift − 1 at t = phase + π; every position, every depth
+        let mut crossings = 0;
+        for tau in [0.7, 1.3, 2.6] {
+            for (i, j) in (0..200).flat_map(|i| (0..200).map(move |j| (i, j))) {
+                let (phase, shift) = (f64::from(i) * 0.03 - 3.0, f64::from(j) * 0.01);
+                let g = |t: f64| ((t - phase).cos() + shift, -(t - phase).sin());
+                let values: Vec<f64> = (0..=1000)
+                    .map(|k| g(tau * f64::from(k) / 1000.0).0)
+                    .collect();
+                let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
+                let (cubic, doubt) = cubic(g, tau, 1.0);
+                match cubic.glance(doubt, false) {
+                    Glance::Out => assert!(lowest > 0.0, "{phase} {shift}"),
+                    Glance::Once(at) => {
+                        assert!(g(0.0).0 > 0.0 && g(tau).0 < 0.0);
+                        assert!((0.0..=tau).contains(&at), "{phase} {shift}: {at}");
+                        let changes = values.windows(2).filter(|w| (w[0] > 0.0) != (w[1] > 0.0));
+                        assert_eq!(changes.count(), 1, "{phase} {shift}");
+                        crossings += 1;
+                    }
+                    Glance::Near => {}
+                }
+            }
+        }
+        assert!(crossings > 5_000, "{crossings}");
+    }
+
+    #[test]
+    fn half_a_turn_from_the_interface_and_beyond_is_told_at_once() {
+        let (cubic, doubt) = cubic(|t| (t.sin(), t.cos()), 3.3, 1.0);
+        let Glance::Once(at) = cubic.glance(doubt, true) else {
+            panic!("{:?}", cubic.glance(doubt, true));
+        };
+        assert!((at - std::f64::consts::PI).abs() < 0.01, "{at}");
+        assert_eq!(cubic.glance(doubt, false), Glance::Near);
+    }
+
+    #[test]
+    fn what_is_far_is_told_at_once() {
+        let told = |g: &dyn Fn(f64) -> (f64, f64), tau: f64, fresh: bool| {
+            let (cubic, doubt) = cubic(g, tau, 1.0);
+            (cubic.glance(doubt, fresh), cubic.has_room(doubt))
+        };
+        assert_eq!(
+            told(&|t| (2.0 + t.sin(), t.cos()), 0.5, false),
+            (Glance::Out, true)
+        );
+        assert_eq!(
+            told(&|t| (t.sin(), t.cos()), 1.0, true),
+            (Glance::Out, false)
+        );
+        let touching = |t: f64| (1.0 - (t + 1.0).sin(), -(t + 1.0).cos());
+        assert_eq!(told(&touching, 1.0, false).0, Glance::Near);
+    }
+}

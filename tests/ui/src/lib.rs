@@ -1,0 +1,1 @@
+//! Declarations that compile, and the messages of those that do not; see `tests/`.
