@@ -7,7 +7,7 @@
 //! What is rare, a step that comes close to an interface without a clear crossing, is made by
 //! the scalar scheme.
 
-use super::kernel::{Job, Kernel, Settings};
+use super::kernel::{Job, Kernel, LONGEST, ORDER, Settings};
 use super::register::{Leave, Register, WIDTH, Wide};
 use super::trajectory::Trajectory;
 use super::vectorised::{Vectorised, Work};
@@ -131,14 +131,14 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         t_end: f64,
     ) -> Self {
         let count = members.len();
+        let fraction = scheme.fraction_at(ORDER).min(LONGEST);
         let mut batch = Self {
             vectorised,
             scheme,
             settings: Settings {
                 end: t_end,
-                order: scheme.order(),
-                fraction: scheme.fraction(),
-                decay: Decay::new(scheme.fraction()),
+                fraction,
+                decay: Decay::new(fraction),
                 corrects: scheme.corrects_level(),
             },
             trajectories: Vec::with_capacity(count),

@@ -15,6 +15,11 @@ use crate::walk::Decay;
 
 /// Halvings of a step of which a glance does not tell enough.
 const MOST_HALVINGS: u32 = 2;
+/// The order of all steps. Straight-line code for several trajectories takes long to compile, so
+/// there is one order, next to the best one at every tolerance.
+pub(super) const ORDER: usize = 18;
+/// A longer step costs more than it gains, because a glance does not tell enough of it.
+pub(super) const LONGEST: f64 = 0.4;
 /// Corrections of a crossing.
 const MOST_CORRECTIONS: u32 = 12;
 /// A correction of the time smaller than this part of the step is made along the field.
@@ -35,7 +40,6 @@ pub(super) enum Job {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
     pub(super) end: f64,
-    pub(super) order: usize,
     /// The part of the radius of convergence that a step takes.
     pub(super) fraction: f64,
     pub(super) decay: Decay,
@@ -54,8 +58,7 @@ impl<const N: usize> FlowVisitor<N, Wide> for Kernel<'_, N> {
 
     #[inline(always)]
     fn visit<const M: usize, F: Flow<Wide, N, M>>(self, flow: &F) {
-        let order = self.settings.order;
-        F::Unrolled::choose(order, InRegion::<F, N, M> { kernel: self, flow });
+        InRegion::<F, N, M> { kernel: self, flow }.with::<{ ORDER + 1 }>();
     }
 }
 
@@ -241,27 +244,18 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
         for (component, &x) in components {
             component[0] = x;
         }
-        let end = self.settings.order + 1;
         let mut solution = Solution::<F, N, M, P> {
             flow: self.flow,
             t: register.t,
             series: self.series,
         };
-        F::Unrolled::run::<0, P, 1, _>(&mut solution, end);
-    }
-
-    #[inline(always)]
-    fn order(&self) -> usize {
-        match F::Unrolled::EXACT {
-            true => P - 1,
-            false => self.settings.order,
-        }
+        F::Unrolled::run::<0, P, 1, _>(&mut solution, P);
     }
 
     /// The steps that the tolerance allows; see [`crate::series::jet::Jet::step`].
     #[inline(always)]
     fn wanted(&self, enters: bool) -> Wide {
-        let order = self.order();
+        let order = P - 1;
         let zero = Wide::from_f64(0.0);
         let (mut last, mut second) = (zero, zero);
         let series = &self.series.as_ref()[..N];

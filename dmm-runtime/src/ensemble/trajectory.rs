@@ -6,14 +6,14 @@ use super::Member;
 use super::register::Register;
 use crate::end::{End, Halted};
 use crate::error::Error;
-use crate::observer::{Observer, Point, Transition};
+use crate::observer::Point;
 use crate::scheme::{Drive, Taylor};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{System, Vector};
 use crate::time::Time;
 use crate::transition::NewtonLocator;
-use crate::walk::{Crowd, Walk, enter, run_segments};
+use crate::walk::{Crowd, Walk, enter, run_segment};
 
 /// A crossing that is still to be judged.
 #[derive(Clone, Copy, Debug)]
@@ -46,20 +46,6 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
     pub(super) tau: f64,
     /// dg/dt on the interface.
     rate: f64,
-}
-
-/// Ends an integration at the first transition.
-struct First {
-    seen: bool,
-}
-
-impl<R, const N: usize> Observer<R, N> for First {
-    const LISTENS: bool = false;
-
-    fn transition(&mut self, _: &Transition<R, N>) -> ControlFlow<()> {
-        self.seen = true;
-        ControlFlow::Break(())
-    }
 }
 
 impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
@@ -160,12 +146,12 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         self.judge()?;
         let end = self.progress.end;
         self.progress.end = until;
-        let mut first = First { seen: false };
         let mut walk = Walk {
             system: &self.system,
             scheme,
             locator: &NewtonLocator,
-            observer: &mut first,
+            // as of a run that nobody observes, whose code there is
+            observer: &mut (),
             progress: self.progress,
             time: self.time,
             state: self.state,
@@ -173,12 +159,13 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             fresh: self.fresh,
             statistics: self.statistics,
         };
-        let result = run_segments(&mut walk);
+        let result = run_segment(&mut walk, &mut self.crowd);
         (self.time, self.state, self.region) = (walk.time, walk.state, walk.region);
         (self.progress, self.statistics) = (walk.progress, walk.statistics);
-        self.fresh = walk.fresh.filter(|_| first.seen);
+        let crossed = matches!(result, Ok(ControlFlow::Continue(())));
+        self.fresh = walk.fresh.filter(|_| crossed);
         self.progress.end = end;
-        result
+        result.map(drop)
     }
 }
 

@@ -100,7 +100,12 @@ impl Taylor {
 
     /// The part of the radius of convergence that a step takes.
     pub(crate) fn fraction(&self) -> f64 {
-        self.tolerance.powf(1.0 / self.order() as f64)
+        self.fraction_at(self.order())
+    }
+
+    /// The same with steps of another order.
+    pub(crate) fn fraction_at(&self, order: usize) -> f64 {
+        self.tolerance.powf(1.0 / order as f64)
     }
 }
 

@@ -15,7 +15,7 @@ mod run;
 mod steps;
 
 pub(crate) use glance::Decay;
-pub(crate) use run::{Crowd, enter, run_segments};
+pub(crate) use run::{Crowd, enter, run_segment, run_segments};
 
 use std::ops::ControlFlow;
 

@@ -3,6 +3,8 @@
 //! after a transition, so that x̂* belongs to the region entered whatever rounding did, and the
 //! located point never fires again.
 
+use std::ops::ControlFlow;
+
 use crate::error::Error;
 use crate::observer::{Observer, Transition};
 use crate::scheme::Scheme;
@@ -60,22 +62,39 @@ where
     Obs: Observer<Sys::Region, N>,
 {
     let mut crowd = Crowd::default();
-    loop {
-        let system = walk.system;
-        let (interface, rate_from) = match system.visit(walk.region, &mut *walk)? {
-            SegmentEnd::Finished | SegmentEnd::Stopped => return Ok(()),
-            SegmentEnd::Crossed { interface, rate } => (interface, rate),
-        };
-        let number = Sch::step_number(&walk.progress);
-        crowd.count::<Sys, N>(number, interface, walk.time.value, &walk.state.x)?;
-        let left = (walk.region, rate_from);
-        let transition = enter(system, left, interface, walk.time, &walk.state)?;
-        walk.statistics.transitions += 1;
-        walk.region = transition.to;
-        walk.fresh = Some(interface);
-        if walk.observer.transition(&transition).is_break() || walk.tell_point().is_break() {
-            return Ok(());
-        }
+    while run_segment(walk, &mut crowd)?.is_continue() {}
+    Ok(())
+}
+
+/// A segment, and the transition at its end if there is one; breaks at the end time or by the
+/// observer's wish.
+#[inline(always)]
+pub(crate) fn run_segment<Sys, Sch, Loc, Obs, const N: usize>(
+    walk: &mut Walk<'_, Sys, Sch, Loc, Obs, N>,
+    crowd: &mut Crowd,
+) -> Result<ControlFlow<()>, Error>
+where
+    Sys: System<N>,
+    Sch: Scheme,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
+    let system = walk.system;
+    let (interface, rate_from) = match system.visit(walk.region, &mut *walk)? {
+        SegmentEnd::Finished | SegmentEnd::Stopped => return Ok(ControlFlow::Break(())),
+        SegmentEnd::Crossed { interface, rate } => (interface, rate),
+    };
+    let number = Sch::step_number(&walk.progress);
+    crowd.count::<Sys, N>(number, interface, walk.time.value, &walk.state.x)?;
+    let left = (walk.region, rate_from);
+    let transition = enter(system, left, interface, walk.time, &walk.state)?;
+    walk.statistics.transitions += 1;
+    walk.region = transition.to;
+    walk.fresh = Some(interface);
+    let told = walk.observer.transition(&transition);
+    match told.is_break() {
+        true => Ok(told),
+        false => Ok(walk.tell_point()),
     }
 }
 
