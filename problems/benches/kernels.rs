@@ -36,7 +36,7 @@ fn main() {
         || hand::run::<hand::Harmonic>([1.0, 1.0]),
     );
     compare(
-        "elliptic, Newton",
+        "elliptic, sweeps",
         || generated(&elliptic, [-1.0, -1.0]),
         || hand::run::<hand::Elliptic>([-1.0, -1.0]),
     );
@@ -117,7 +117,13 @@ mod hand {
         /// The kernel of a region.
         fn region(above: bool) -> Self;
         /// Increment of a full step; `predicted` is the extrapolated increment.
-        fn step(&self, x: [f64; 2], predicted: [f64; 2], iterations: &mut u64) -> [f64; 2];
+        fn step(
+            &self,
+            x: [f64; 2],
+            predicted: [f64; 2],
+            sweeps: &mut Sweeps,
+            iterations: &mut u64,
+        ) -> [f64; 2];
         /// Increment and velocity of a step of any size.
         fn partial(&self, x: [f64; 2], tau: f64) -> ([f64; 2], [f64; 2]);
         /// ψ and ∇ψ.
@@ -153,7 +159,7 @@ mod hand {
         }
 
         #[inline(always)]
-        fn step(&self, [x, y]: [f64; 2], _: [f64; 2], _: &mut u64) -> [f64; 2] {
+        fn step(&self, [x, y]: [f64; 2], _: [f64; 2], _: &mut Sweeps, _: &mut u64) -> [f64; 2] {
             [
                 self.diagonal * x + self.upper * y,
                 self.lower * x + self.diagonal * y,
@@ -190,7 +196,30 @@ mod hand {
         a: f64,
     }
 
+    /// Fixed-point sweeps in place of Newton's method.
+    #[derive(Clone, Copy, Default)]
+    pub(super) struct Sweeps {
+        /// Steps until Newton's method has another turn.
+        left: u32,
+        /// A last correction is as small as this.
+        tolerance: [f64; 2],
+    }
+
     impl Elliptic {
+        /// The sweeps of the steps after one over `[d, e]`: the contraction of τ ∂f^τ/∂x₁ leaves
+        /// of a last correction less than half a unit in the last place.
+        #[inline(never)]
+        fn sweeps(&self, [x, y]: [f64; 2], [d, e]: [f64; 2]) -> Sweeps {
+            let scale = [d.abs() + x.abs() / 64.0, e.abs() + y.abs() / 64.0];
+            let lower = STEP_SIZE * (2.0 * (x + d) + x).abs();
+            let rows = [STEP_SIZE * scale[1] / scale[0], lower * scale[0] / scale[1]];
+            let part = 0.25 * f64::EPSILON / rows[0].max(rows[1]);
+            Sweeps {
+                left: 31,
+                tolerance: [scale[0] * part, scale[1] * part],
+            }
+        }
+
         #[inline(always)]
         fn newton(
             &self,
@@ -229,8 +258,34 @@ mod hand {
         }
 
         #[inline(always)]
-        fn step(&self, x: [f64; 2], predicted: [f64; 2], iterations: &mut u64) -> [f64; 2] {
-            self.newton(x, STEP_SIZE, predicted, iterations)
+        fn step(
+            &self,
+            [x, y]: [f64; 2],
+            predicted: [f64; 2],
+            sweeps: &mut Sweeps,
+            iterations: &mut u64,
+        ) -> [f64; 2] {
+            let [mut d, mut e] = predicted;
+            if sweeps.left > 0 {
+                sweeps.left -= 1;
+                for _ in 0..3 {
+                    let x1 = x + d;
+                    let (u, v) = (
+                        STEP_SIZE * (y + e + y),
+                        STEP_SIZE * (x1 * x1 + x1 * x + x * x + self.a),
+                    );
+                    let small = (u - d).abs() <= sweeps.tolerance[0]
+                        && (v - e).abs() <= sweeps.tolerance[1];
+                    (d, e) = (u, v);
+                    if small {
+                        return [d, e];
+                    }
+                }
+                return self.newton([x, y], STEP_SIZE, [d, e], iterations);
+            }
+            let [u, v] = self.newton([x, y], STEP_SIZE, predicted, iterations);
+            *sweeps = self.sweeps([x, y], [u, v]);
+            [u, v]
         }
 
         fn partial(&self, [x, y]: [f64; 2], tau: f64) -> ([f64; 2], [f64; 2]) {
@@ -335,7 +390,8 @@ mod hand {
             }
             let mut g = sign * K::switching(state.x).0;
             let mut change = f64::INFINITY;
-            let mut recent = [[0.0f64; 2]; 4];
+            let mut recent = [[0.0f64; 2]; 6];
+            let mut sweeps = Sweeps::default();
             let mut known = 0;
             loop {
                 if node >= count {
@@ -343,16 +399,22 @@ mod hand {
                 }
                 let predicted = if !K::PREDICTS {
                     [0.0; 2]
-                } else if known >= 4 {
-                    let [p, q, r, s] = recent;
-                    let one = |i: usize| (p[i] + r[i]) * 4.0 - q[i] * 6.0 - s[i];
+                } else if known >= 6 {
+                    let [p, q, r, s, t, u] = recent;
+                    let one = |i: usize| {
+                        (p[i] + t[i]) * 6.0 - (q[i] + s[i]) * 15.0 + (r[i] * 20.0 - u[i])
+                    };
                     [one(0), one(1)]
                 } else {
                     kernel.partial(state.x, STEP_SIZE).0
                 };
-                let d = kernel.step(state.x, predicted, &mut run.iterations);
+                if known < 6 {
+                    sweeps.left = 0;
+                }
+                let d = kernel.step(state.x, predicted, &mut sweeps, &mut run.iterations);
                 if K::PREDICTS {
-                    recent = [d, recent[0], recent[1], recent[2]];
+                    let [p, q, r, s, t, _] = recent;
+                    recent = [d, p, q, r, s, t];
                     known += 1;
                 }
                 let next = state.after_quickly(d);

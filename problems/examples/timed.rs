@@ -6,16 +6,17 @@
 //! | `schemes` | the schemes that conserve: `name`, and whether `adaptive` (by a tolerance) |
 //! | `describe PROBLEM` | states, parameters, initial value, formulas of f and g, reference |
 //! | `run PROBLEM SCHEME CONTROL T_END REPEATS` | final state, steps, transitions, seconds each |
-//! | `ensemble PROBLEM SCHEME CONTROL T_END FILE REPEATS` | final states, seconds of all runs |
+//! | `ensemble PROBLEM SCHEME CONTROL T_END FILE HOW REPEATS` | final states, seconds of all runs |
 //!
 //! `CONTROL` is `step=1e-3` or `tolerance=1e-9`; `FILE` is a CSV file with a run a row, whose
-//! columns are states and parameters. What cannot be answered is `{"error": "…"}`. A run starts
+//! columns are states and parameters; `HOW` is `lanes` or `single`. What cannot be answered is `{"error": "…"}`. A run starts
 //! from the problem's initial value, and what is timed is all of it: nothing is kept from one to
 //! the next. Seconds are of the thread's processor time, which other work on the machine
 //! lengthens little.
 
 use std::error::Error;
 use std::io::{BufRead, Write};
+use std::ops::ControlFlow;
 
 use cpu_time::ThreadTime;
 use dmm_compiler::algebra::{Id, to_text};
@@ -23,7 +24,7 @@ use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::model::{Model, Sign};
 use dmm_compiler::{check, syntax};
 use dmm_problems::method::{Control, Method};
-use dmm_problems::problem::{Problem, Run};
+use dmm_problems::problem::{Crew, Problem, Run, Start};
 use dmm_problems::reference::Reference;
 use dmm_problems::registry;
 use serde_json::{Value, json};
@@ -49,11 +50,11 @@ fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
             let run = request(&*problem, scheme, control, t_end.parse()?)?;
             timed(&*problem, &run, repeats.parse()?)
         }
-        ["ensemble", name, scheme, control, t_end, file, repeats] => {
+        ["ensemble", name, scheme, control, t_end, file, how, repeats] => {
             let problem = registry::find(name)?;
             let run = request(&*problem, scheme, control, t_end.parse()?)?;
-            let members = members(&*problem, &run, file)?;
-            ensemble(&members, repeats.parse()?)
+            let starts = starts(&*problem, &run, file)?;
+            ensemble(&*problem, &run, &starts, *how == "lanes", repeats.parse()?)
         }
         _ => Err(format!("no such request: {}", words.join(" ")).into()),
     }
@@ -112,46 +113,66 @@ fn timed(problem: &dyn Problem, run: &Run, repeats: usize) -> Result<Value, Box<
     }))
 }
 
-/// A run of an ensemble.
-struct Member {
-    problem: Box<dyn Problem>,
-    run: Run,
-}
-
-/// The runs of a file.
-fn members(problem: &dyn Problem, run: &Run, file: &str) -> Result<Vec<Member>, Box<dyn Error>> {
+/// Where the runs of a file start.
+fn starts(problem: &dyn Problem, run: &Run, file: &str) -> Result<Vec<Start>, Box<dyn Error>> {
     let mut reader = csv::Reader::from_path(file)?;
     let names = reader.headers()?.clone();
-    let mut members = Vec::new();
+    let (states, parameters) = (problem.states(), problem.parameters());
+    let mut starts = Vec::new();
     for row in reader.records() {
-        let (mut problem, mut run) = (problem.duplicate(), run.clone());
+        let mut start = Start {
+            parameters: parameters.iter().map(|(_, value)| *value).collect(),
+            initial: run.initial.clone(),
+        };
         for (name, value) in names.iter().zip(&row?) {
-            let value = value.parse()?;
-            let state = problem.states().iter().position(|state| *state == name);
-            match state.and_then(|state| run.initial.get_mut(state)) {
-                Some(initial) => *initial = value,
-                None if problem.set_parameter(name, value) => {}
-                None => return Err(format!("no state or parameter `{name}`").into()),
-            }
+            let state = states.iter().position(|state| *state == name);
+            let parameter = parameters.iter().position(|(other, _)| *other == name);
+            let place = match (state, parameter) {
+                (Some(index), _) => start.initial.get_mut(index),
+                (None, Some(index)) => start.parameters.get_mut(index),
+                (None, None) => return Err(format!("no state or parameter `{name}`").into()),
+            };
+            *place.ok_or("a problem without its own initial value")? = value.parse()?;
         }
-        members.push(Member { problem, run });
+        starts.push(start);
     }
-    Ok(members)
+    Ok(starts)
 }
 
-/// The runs one after another.
-fn ensemble(members: &[Member], repeats: usize) -> Result<Value, Box<dyn Error>> {
+/// All runs on one core.
+fn ensemble(
+    problem: &dyn Problem,
+    run: &Run,
+    starts: &[Start],
+    lanes: bool,
+    repeats: usize,
+) -> Result<Value, Box<dyn Error>> {
+    let crew = Crew {
+        threads: Some(1),
+        lanes,
+    };
     let mut seconds = Vec::with_capacity(repeats);
     let mut states = Vec::new();
     for _ in 0..repeats.max(1) {
+        states.clear();
+        let mut error = None;
         let start = ThreadTime::now();
-        states = members
-            .iter()
-            .map(|Member { problem, run }| Ok(problem.integrate_silently(run)?.x))
-            .collect::<Result<Vec<_>, Box<dyn Error>>>()?;
+        problem.integrate_all(run, crew, &mut starts.iter().cloned(), &mut |fate| {
+            match fate.arrival {
+                Some(arrival) if fate.error.is_none() => states.push(arrival.x),
+                _ => error = fate.error,
+            }
+            ControlFlow::Continue(())
+        });
         seconds.push(start.elapsed().as_secs_f64());
+        if let Some(error) = error {
+            return Err(error.into());
+        }
     }
-    Ok(json!({ "x": states, "seconds": seconds }))
+    match states.len() == starts.len() {
+        true => Ok(json!({ "x": states, "seconds": seconds })),
+        false => Err("ensembles are not integrated by this scheme".into()),
+    }
 }
 
 fn describe(problem: &dyn Problem) -> Result<Value, Box<dyn Error>> {
@@ -247,12 +268,16 @@ mod tests {
             "tolerance=1e-12",
             "10",
             path,
+            "single",
             "1",
         ];
         let runs = answer(&words).unwrap();
         let alone = answer(&["run", "harmonic", "taylor", "tolerance=1e-12", "10", "1"]).unwrap();
         assert_eq!(runs["x"][0], alone["x"]);
         assert!(runs["x"][1] != alone["x"]);
+        let lanes = words.map(|word| if word == "single" { "lanes" } else { word });
+        let x = |runs: &Value| runs["x"][1][0].as_f64().unwrap();
+        assert!((x(&answer(&lanes).unwrap()) - x(&runs)).abs() < 1e-11);
         std::fs::write(&file, "z\n1\n").unwrap();
         assert!(answer(&words).is_err());
     }
