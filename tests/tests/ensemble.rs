@@ -80,8 +80,8 @@ fn alone<Sys: System<N>, const N: usize>(
     members.iter().map(one).collect()
 }
 
-/// Asserts that the ensemble does what each member does alone: the same transitions in about as
-/// many steps, and end points that differ by `accuracy` at most.
+/// Asserts that the ensemble does what each member does alone: the same transitions in not many
+/// steps more, and end points that differ by `accuracy` at most.
 fn assert_as_alone<Sys: System<N>, const N: usize>(
     tolerance: f64,
     t_end: f64,
@@ -110,8 +110,8 @@ fn assert_as_alone<Sys: System<N>, const N: usize>(
         let counts = [one, other].map(|end| end.statistics);
         assert_eq!(counts[0].transitions, counts[1].transitions, "{number}");
         let steps = counts[0].steps.abs_diff(counts[1].steps);
-        // which steps near an interface are cut is the scheme's to choose
-        assert!(steps <= 2 + counts[1].steps / 4, "{number}: {counts:?}");
+        // lanes have an order of their own, and cut other steps near an interface
+        assert!(steps <= 2 + counts[1].steps / 2, "{number}: {counts:?}");
         let distance = (one.point.x - other.point.x).norm();
         assert!(distance <= accuracy, "{number}: {distance:e}");
     }

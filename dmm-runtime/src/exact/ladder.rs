@@ -11,10 +11,10 @@
 use std::any::Any;
 use std::fmt;
 
-use super::pair::Pair;
 use super::propagator::{Coefficients, Propagator, Rows};
 use crate::linear::is_finite;
 use crate::scalar::Scalar;
+use crate::special::double::Double;
 use crate::state::State;
 use crate::system::{Boundary, Flow, Vector};
 
@@ -158,12 +158,12 @@ impl<const N: usize> Ladder<N> {
     }
 
     /// c A³
-    fn third(&self, row: &[Pair; N]) -> [Pair; N] {
+    fn third(&self, row: &[Double; N]) -> [Double; N] {
         let a = &self.coefficients.matrix;
-        let image = |row: &[Pair; N]| -> [Pair; N] {
+        let image = |row: &[Double; N]| -> [Double; N] {
             std::array::from_fn(|j| {
                 let terms = row.iter().zip(a);
-                terms.fold(Pair::default(), |sum, (entry, own)| {
+                terms.fold(Double::default(), |sum, (entry, own)| {
                     sum.plus(entry.scaled(own[j]))
                 })
             })
@@ -330,8 +330,8 @@ fn inverse(k: u32) -> f64 {
     1.0 / f64::from(k)
 }
 
-fn pairs<const N: usize>(row: &Vector<f64, N>) -> [Pair; N] {
-    std::array::from_fn(|j| Pair::from(row[j]))
+fn pairs<const N: usize>(row: &Vector<f64, N>) -> [Double; N] {
+    std::array::from_fn(|j| Double::from(row[j]))
 }
 
 /// The row vector r A.

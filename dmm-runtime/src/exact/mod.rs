@@ -2,7 +2,6 @@
 //! sizes, and bounds of how the interfaces' switching functions bend in a step.
 
 mod ladder;
-mod pair;
 mod propagator;
 mod short;
 

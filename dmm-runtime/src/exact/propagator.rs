@@ -7,8 +7,8 @@
 //! E(s)φ(h) + φ(s). (Moler & Van Loan, SIAM Review 45, 2003, method 3, scaling and squaring; the
 //! digits that squaring loses are those that a pair of doubles has beyond a double.)
 
-use super::pair::Pair;
 use crate::scalar::Scalar;
+use crate::special::double::Double;
 use crate::state::State;
 use crate::system::Vector;
 use crate::time::{two_product, two_sum};
@@ -33,8 +33,8 @@ pub(crate) struct Coefficients<const N: usize> {
 /// E and φ.
 #[derive(Clone, Debug)]
 pub(crate) struct Propagator<const N: usize> {
-    matrix: Rows<Pair, N>,
-    offset: [Pair; N],
+    matrix: Rows<Double, N>,
+    offset: [Double; N],
     /// Whether φ ≠ 0.
     shifts: bool,
 }
@@ -44,18 +44,18 @@ impl<const N: usize> Propagator<N> {
     pub(super) fn series(coefficients: &Coefficients<N>, h: f64) -> Option<Self> {
         let Coefficients { matrix: a, offset } = coefficients;
         let mut term = identity::<N>();
-        let mut column = offset.map(|b| Pair::from(b).scaled(h));
+        let mut column = offset.map(|b| Double::from(b).scaled(h));
         let mut sum = Self {
             matrix: term,
             offset: column,
             shifts: offset.iter().any(|&b| b != 0.0),
         };
         for k in 1..=MOST_TERMS {
-            let factor = Pair::ratio(h, f64::from(k));
+            let factor = Double::ratio(h, f64::from(k));
             term = product(a, &term, factor);
             let mut largest = add(&mut sum.matrix, &term);
             if sum.shifts {
-                let factor = Pair::ratio(h, f64::from(k + 1));
+                let factor = Double::ratio(h, f64::from(k + 1));
                 column = image(a, &column, factor);
                 largest = largest.max(add_column(&mut sum.offset, &column));
             }
@@ -72,7 +72,7 @@ impl<const N: usize> Propagator<N> {
         Coefficients { matrix: a, .. }: &Coefficients<N>,
         h: f64,
         k: u32,
-        (term, column): (&Rows<Pair, N>, &[Pair; N]),
+        (term, column): (&Rows<Double, N>, &[Double; N]),
     ) -> Option<Self> {
         let mut term = term.map(|row| row.map(|entry| entry.high));
         let mut column = column.map(|entry| entry.high);
@@ -108,8 +108,8 @@ impl<const N: usize> Propagator<N> {
             let sizes = self.matrix.iter().flatten();
             let size = sizes.fold(0.0f64, |size, entry| size.max(entry.high.abs()));
             if largest <= NEGLIGIBLE * size {
-                add(&mut self.matrix, &rest.map(|row| row.map(Pair::from)));
-                add_column(&mut self.offset, &shift.map(Pair::from));
+                add(&mut self.matrix, &rest.map(|row| row.map(Double::from)));
+                add_column(&mut self.offset, &shift.map(Double::from));
                 return Some(self);
             }
         }
@@ -118,19 +118,19 @@ impl<const N: usize> Propagator<N> {
 
     /// This one after `first`.
     pub(super) fn after(&self, first: &Self) -> Self {
-        let row = |row: &[Pair; N], column: &dyn Fn(usize) -> Pair, start: Pair| {
+        let row = |row: &[Double; N], column: &dyn Fn(usize) -> Double, start: Double| {
             let terms = row.iter().enumerate();
             let terms = terms.filter(|(_, entry)| entry.high != 0.0);
-            terms.fold(start, |sum, (k, entry)| sum.plus(entry.times(column(k))))
+            terms.fold(start, |sum, (k, entry)| sum.plus(*entry * column(k)))
         };
         let mut whole = Self {
-            matrix: [[Pair::default(); N]; N],
+            matrix: [[Double::default(); N]; N],
             offset: self.offset,
             shifts: self.shifts,
         };
         for (target, own) in whole.matrix.iter_mut().zip(&self.matrix) {
             for (j, target) in target.iter_mut().enumerate() {
-                *target = row(own, &|k| first.matrix[k][j], Pair::default());
+                *target = row(own, &|k| first.matrix[k][j], Double::default());
             }
         }
         if self.shifts {
@@ -142,11 +142,11 @@ impl<const N: usize> Propagator<N> {
     }
 
     /// The row vector r E.
-    pub(super) fn transposed(&self, row: &[Pair; N]) -> [Pair; N] {
+    pub(super) fn transposed(&self, row: &[Double; N]) -> [Double; N] {
         std::array::from_fn(|j| {
             let terms = row.iter().zip(&self.matrix);
-            terms.fold(Pair::default(), |sum, (entry, own)| {
-                sum.plus(entry.times(own[j]))
+            terms.fold(Double::default(), |sum, (entry, own)| {
+                sum.plus(*entry * own[j])
             })
         })
     }
@@ -187,24 +187,24 @@ impl<const N: usize> Propagator<N> {
                 high = sum;
                 low += lost + self.offset[i].low;
             }
-            let sum = Pair::fast_sum(high, low);
+            let sum = Double::fast_sum(high, low);
             (next.x[i], next.remainder[i]) = (sum.high, sum.low);
         }
         next
     }
 }
 
-fn identity<const N: usize>() -> Rows<Pair, N> {
-    let mut matrix = [[Pair::default(); N]; N];
+fn identity<const N: usize>() -> Rows<Double, N> {
+    let mut matrix = [[Double::default(); N]; N];
     for (i, row) in matrix.iter_mut().enumerate() {
-        row[i] = Pair::ONE;
+        row[i] = Double::ONE;
     }
     matrix
 }
 
 /// c A M
-fn product<const N: usize>(a: &Rows<f64, N>, m: &Rows<Pair, N>, c: Pair) -> Rows<Pair, N> {
-    let mut product = [[Pair::default(); N]; N];
+fn product<const N: usize>(a: &Rows<f64, N>, m: &Rows<Double, N>, c: Double) -> Rows<Double, N> {
+    let mut product = [[Double::default(); N]; N];
     for (target, row) in product.iter_mut().zip(a) {
         for (&entry, other) in row.iter().zip(m) {
             if entry != 0.0 {
@@ -214,25 +214,25 @@ fn product<const N: usize>(a: &Rows<f64, N>, m: &Rows<Pair, N>, c: Pair) -> Rows
             }
         }
         for target in target {
-            *target = target.times(c);
+            *target *= c;
         }
     }
     product
 }
 
 /// c A u
-fn image<const N: usize>(a: &Rows<f64, N>, u: &[Pair; N], c: Pair) -> [Pair; N] {
+fn image<const N: usize>(a: &Rows<f64, N>, u: &[Double; N], c: Double) -> [Double; N] {
     std::array::from_fn(|i| {
         let terms = a[i].iter().zip(u);
-        let sum = terms.fold(Pair::default(), |sum, (&entry, u)| {
+        let sum = terms.fold(Double::default(), |sum, (&entry, u)| {
             sum.plus(u.scaled(entry))
         });
-        sum.times(c)
+        sum * c
     })
 }
 
 /// Adds a term to a sum; the largest entry of the term, relative to that of the sum.
-fn add<const N: usize>(sum: &mut Rows<Pair, N>, term: &Rows<Pair, N>) -> f64 {
+fn add<const N: usize>(sum: &mut Rows<Double, N>, term: &Rows<Double, N>) -> f64 {
     let (mut of_sum, mut of_term) = (0.0f64, 0.0f64);
     for (sum, term) in sum.as_flattened_mut().iter_mut().zip(term.as_flattened()) {
         *sum = sum.plus(*term);
@@ -243,7 +243,7 @@ fn add<const N: usize>(sum: &mut Rows<Pair, N>, term: &Rows<Pair, N>) -> f64 {
 }
 
 /// The same for a column.
-fn add_column<const N: usize>(sum: &mut [Pair; N], term: &[Pair; N]) -> f64 {
+fn add_column<const N: usize>(sum: &mut [Double; N], term: &[Double; N]) -> f64 {
     let (mut of_sum, mut of_term) = (0.0f64, 0.0f64);
     for (sum, term) in sum.iter_mut().zip(term) {
         *sum = sum.plus(*term);

@@ -1,10 +1,10 @@
 //! The exact flow over a short time d: x + d f + Σ dᵏ Aᵏ⁻¹ f/k!, with the first term in pairs of
 //! doubles. The others are below d²/2, and their rounding errors far below those of x.
 
-use super::pair::Pair;
 use super::propagator::{Coefficients, Rows};
 use crate::scalar::Scalar;
 use crate::series::polynomial::increment;
+use crate::special::double::Double;
 use crate::state::State;
 use crate::system::Vector;
 
@@ -39,7 +39,7 @@ pub(super) fn powers<const N: usize>(a: &Rows<f64, N>) -> Powers<N> {
 pub(crate) struct Short<const N: usize> {
     at: State<N>,
     /// f
-    field: [Pair; N],
+    field: [Double; N],
     /// Aᵏ⁻¹ f/k! by component.
     terms: [[f64; TERMS]; N],
 }
@@ -49,13 +49,13 @@ impl<const N: usize> Short<N> {
     pub(super) fn new(coefficients: &Coefficients<N>, powers: &Powers<N>, at: State<N>) -> Self {
         let mut short = Self {
             at,
-            field: [Pair::default(); N],
+            field: [Double::default(); N],
             terms: [[0.0; TERMS]; N],
         };
         for i in 0..N {
-            let mut sum = Pair::from(coefficients.offset[i]);
+            let mut sum = Double::from(coefficients.offset[i]);
             for (j, &entry) in coefficients.matrix[i].iter().enumerate() {
-                let x = Pair {
+                let x = Double {
                     high: at.x[j],
                     low: at.remainder[j],
                 };
@@ -86,11 +86,11 @@ impl<const N: usize> Short<N> {
         for i in 0..N {
             let first = self.field[i].scaled(d);
             let rest = d * increment(&self.terms[i], d);
-            let x = Pair {
+            let x = Double {
                 high: state.x[i],
                 low: state.remainder[i],
             };
-            let sum = x.plus(first).plus(Pair::from(rest));
+            let sum = x.plus(first).plus(Double::from(rest));
             (state.x[i], state.remainder[i]) = (sum.high, sum.low);
         }
         state

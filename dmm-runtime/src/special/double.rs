@@ -4,7 +4,8 @@
 //! apart, it is evaluated in pairs of doubles, u = high + low with |low| ≤ ulp(high)/2, which
 //! carry about 104 bits (Joldes, Muller & Popescu 2017, ACM Trans. Math. Softw. 44(2),
 //! algorithms 1, 2, 6 and 11; quotient and root by long division). Next to a zero of the
-//! derivative even these are not enough: see [`super::long`].
+//! derivative even these are not enough: see [`super::long`]. Levels of conserved quantities and
+//! the propagators of exact flows are pairs too.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -19,7 +20,7 @@ use crate::time::two_product;
 pub(super) const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 
 /// An unevaluated sum of two doubles.
-#[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
+#[derive(Clone, Copy, PartialEq, PartialOrd, Debug, Default)]
 pub(crate) struct Double {
     pub(crate) high: f64,
     pub(crate) low: f64,
@@ -30,20 +31,22 @@ const LEADING: [f64; 13] = coefficients(0);
 /// Those whose terms are below 2⁻⁵² of the sum, so that plain doubles do.
 const TRAILING: [f64; 13] = coefficients(13);
 
-/// a + b exactly, where |a| ≥ |b|.
-#[inline]
-fn fast_two_sum(a: f64, b: f64) -> Double {
-    let high = a + b;
-    Double {
-        high,
-        low: b - (high - a),
-    }
-}
-
 impl Double {
+    pub(crate) const ONE: Self = Self::new(1.0, 0.0);
+
     /// A number of more digits than a double has.
     pub(crate) const fn new(high: f64, low: f64) -> Self {
         Self { high, low }
+    }
+
+    /// a + b exactly, where |a| ≥ |b|.
+    #[inline(always)]
+    pub(crate) fn fast_sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        Self {
+            high,
+            low: b - (high - a),
+        }
     }
 
     /// a + b exactly.
@@ -58,9 +61,28 @@ impl Double {
         }
     }
 
+    /// a/b
+    pub(crate) fn ratio(a: f64, b: f64) -> Self {
+        Self::from(a) / Self::from(b)
+    }
+
+    /// The sum in fewer operations than [`Add`]: the error is relative to the larger term.
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        let sum = Self::sum(self.high, other.high);
+        Self::fast_sum(sum.high, sum.low + (self.low + other.low))
+    }
+
+    /// The product with a double.
+    #[inline(always)]
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        let product = Self::product(self.high, factor);
+        Self::fast_sum(product.high, self.low.fused(factor, product.low))
+    }
+
     /// a·b exactly. The fused operation is a call where the target lacks it; there factors
     /// that can be split without overflow are.
-    #[inline]
+    #[inline(always)]
     pub(super) fn product(a: f64, b: f64) -> Self {
         const LARGEST: f64 = 1e150;
         let has_fused = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
@@ -115,8 +137,8 @@ impl Add for Double {
     fn add(self, other: Self) -> Self {
         let high = Self::sum(self.high, other.high);
         let low = Self::sum(self.low, other.low);
-        let sum = fast_two_sum(high.high, high.low + low.high);
-        fast_two_sum(sum.high, low.low + sum.low)
+        let sum = Self::fast_sum(high.high, high.low + low.high);
+        Self::fast_sum(sum.high, low.low + sum.low)
     }
 }
 
@@ -136,7 +158,7 @@ impl Mul for Double {
     fn mul(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         let cross = self.high.fused(other.low, self.low * other.high);
-        fast_two_sum(product.high, product.low + cross)
+        Self::fast_sum(product.high, product.low + cross)
     }
 }
 
@@ -148,7 +170,7 @@ impl Div for Double {
         let remainder = self - other * Self::from(first);
         let second = remainder.high / other.high;
         let remainder = remainder - other * Self::from(second);
-        fast_two_sum(first, second) + Self::from(remainder.high / other.high)
+        Self::fast_sum(first, second) + Self::from(remainder.high / other.high)
     }
 }
 
@@ -170,7 +192,7 @@ impl Extended for Double {
             return Self::from(root);
         }
         let remainder = self - Self::product(root, root);
-        fast_two_sum(root, remainder.high / (2.0 * root))
+        Self::fast_sum(root, remainder.high / (2.0 * root))
     }
 
     /// The series, with the plain sum of the terms that are small, once |u| ≤ 1/16.

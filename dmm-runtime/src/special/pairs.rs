@@ -110,7 +110,7 @@ impl Double {
     }
 
     /// u·2ᵏ
-    fn scaled(self, k: f64) -> Self {
+    fn times_power_of_two(self, k: f64) -> Self {
         // in two factors, each of which is a double
         let half = (0.5 * k).trunc();
         let (a, b) = (half.exp2(), (k - half).exp2());
@@ -189,7 +189,7 @@ impl Scalar for Double {
         }
         let r = self - Self::from(k) * Self::new(LN_2, LN_2_LOW);
         let (c, s) = r.hyperbolic();
-        (c + s).scaled(k)
+        (c + s).times_power_of_two(k)
     }
 
     fn ln(self) -> Self {

@@ -380,7 +380,8 @@ where
             let (value, by_time, _) = switching(flow, interface, time, &node);
             let mut along = ladder.along(found.side, &short.field());
             along[0] += by_time;
-            let start = match found.precise {
+            // at the start of the step there may be a root that does not count
+            let start = match found.precise || offset == 0.0 {
                 true => first,
                 false => -value * along[0] / (along[0] * along[0] - value * along[1]),
             };

@@ -76,7 +76,8 @@ fn of_a_nilpotent_matrix_the_flow_is_a_polynomial() {
     let exact: Vec<f64> = (1..=500).map(|k| 2.0 * f64::from(k)).collect();
     assert_eq!(times(&Parabolas {}, [0.0, 1.0], 1001.0), exact);
     let solution = solve(&Parabolas {}, [0.0, 1.0], 1001.0);
-    assert_eq!(solution.last().unwrap().x.as_slice(), [0.5, 0.0]);
+    let end = solution.last().unwrap().x;
+    assert!(end[0] == 0.5 && end[1].abs() < 1e-20, "{end}");
     assert_eq!(solution.at(2.5).unwrap().as_slice(), [-0.375, -0.5]);
 }
 
