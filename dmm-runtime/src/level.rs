@@ -213,16 +213,18 @@ impl<const N: usize, const M: usize> Level<N, M> {
         errors.any(|(residual, size)| residual.abs() > Self::ROUNDING * size)
     }
 
-    /// The state that a step over `displacement` has come to, put back on the level.
+    /// The state that a step over `displacement` has come to, put back on the level if it
+    /// `corrects`.
     #[inline(always)]
     pub(crate) fn reached<F: Flow<f64, N, M>>(
         &self,
         flow: &F,
         time: Time,
-        mut state: State<N>,
+        state: State<N>,
         displacement: &Vector<f64, N>,
+        corrects: bool,
     ) -> State<N> {
-        if M == 0 {
+        if M == 0 || !corrects {
             return state.normalised();
         }
         let weights = Weights::new(&state.x, displacement);
@@ -231,13 +233,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         {
             return reached;
         }
-        let displacement = self.correction(flow, time, &state, &weights);
-        state.remainder += displacement;
-        state = state.normalised();
-        match weights.are_left_by(&displacement) {
-            true => self.reached_again(flow, time, state, &weights),
-            false => state,
-        }
+        self.reached_by_steps(flow, time, state, &weights)
     }
 
     /// The same for one quantity that has some slope. What a large correction leaves, the square
@@ -274,15 +270,16 @@ impl<const N: usize, const M: usize> Level<N, M> {
             reached = without(reached, second);
             // the same slope again leaves the product of the two
             if (first * second).abs() > coarse {
-                reached = self.reached_again(flow, time, reached, weights);
+                reached = self.reached_by_steps(flow, time, reached, weights);
             }
         }
         Some(reached)
     }
 
-    /// After a correction so large that its square is no rounding error.
+    /// The same by one correction after the other, while the square of the last one is no rounding
+    /// error.
     #[inline(never)]
-    fn reached_again<F: Flow<f64, N, M>>(
+    fn reached_by_steps<F: Flow<f64, N, M>>(
         &self,
         flow: &F,
         time: Time,
@@ -290,7 +287,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         weights: &Weights<N>,
     ) -> State<N> {
         /// The error falls to its square each time, and then to the part that damping leaves.
-        const MOST: u32 = 8;
+        const MOST: u32 = 9;
         for _ in 0..MOST {
             let displacement = self.correction(flow, time, &state, weights);
             state.remainder += displacement;

@@ -3,9 +3,11 @@
 //! A plain double loses two digits of phase by t = 10⁴; the unevaluated sum of two doubles
 //! keeps the time of a transition to the last bit of its increment, however long the run.
 
+use crate::scalar::Scalar;
+
 /// a + b = s + e exactly, s the rounded sum (Knuth, TAOCP 2, 4.2.2, theorem B).
-#[inline]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+#[inline(always)]
+pub(crate) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
     let s = a + b;
     let b_part = s - a;
     let a_part = s - b_part;

@@ -1,28 +1,10 @@
 //! Ensembles: every member as if it were alone.
 
+use dmm_problems::systems::Elliptic;
 use dmm_runtime::{
     End, Ensemble, Error, Halted, Integrator, Member, Symmetric, System, Taylor, Vector, pws,
 };
 use std::ops::ControlFlow;
-
-pws! {
-    /// Elliptic curves, with another curve inside the unit circle.
-    system Elliptic {
-        state x, y;
-        param a_inside = -3, a_outside = -2;
-        interface circle = x^2 + y^2 - 1;
-        region inside where circle < 0 {
-            der(x) = 2 * y;
-            der(y) = 3 * x^2 + a_inside;
-            conserved curve = y^2 - x^3 - a_inside * x;
-        }
-        region outside where circle > 0 {
-            der(x) = 2 * y;
-            der(y) = 3 * x^2 + a_outside;
-            conserved curve = y^2 - x^3 - a_outside * x;
-        }
-    }
-}
 
 pws! {
     /// A rotor that is driven on one side of a line that moves, and turned in three dimensions on

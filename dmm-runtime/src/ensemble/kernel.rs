@@ -3,14 +3,14 @@
 use std::hint::black_box;
 
 use super::glance::glance;
-use super::level::{Place, two_sum, vector};
+use super::level::Place;
 use super::register::{Register, WIDTH, Wide};
 use crate::lanes::Mask;
 use crate::scalar::Scalar;
-use crate::series::jet::FIRST;
+use crate::series::jet::{expand, first_switching};
 use crate::series::polynomial::increment;
-use crate::series::{Choice, Coefficients, Order, Unroll};
 use crate::system::{Boundary, Flow, FlowVisitor, Vector};
+use crate::time::two_sum;
 use crate::walk::Decay;
 
 /// Halvings of a step of which a glance does not tell enough.
@@ -18,12 +18,9 @@ const MOST_HALVINGS: u32 = 2;
 /// The order of all steps. Straight-line code for several trajectories takes long to compile, so
 /// there is one order, next to the best one at every tolerance.
 pub(super) const ORDER: usize = 18;
+const COEFFICIENTS: usize = ORDER + 1;
 /// A longer step costs more than it gains, because a glance does not tell enough of it.
 pub(super) const LONGEST: f64 = 0.4;
-/// Corrections of a crossing.
-const MOST_CORRECTIONS: u32 = 12;
-/// A correction of the time smaller than this part of the step is made along the field.
-const SMALL: f64 = 1e-8;
 
 /// What is to be done.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,38 +55,21 @@ impl<const N: usize> FlowVisitor<N, Wide> for Kernel<'_, N> {
 
     #[inline(always)]
     fn visit<const M: usize, F: Flow<Wide, N, M>>(self, flow: &F) {
-        InRegion::<F, N, M> { kernel: self, flow }.with::<{ ORDER + 1 }>();
-    }
-}
-
-/// A kernel in the region of a flow.
-struct InRegion<'a, F, const N: usize, const M: usize> {
-    kernel: Kernel<'a, N>,
-    flow: &'a F,
-}
-
-impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Choice for InRegion<'_, F, N, M> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with<const P: usize>(self) {
-        let Self { kernel, flow } = self;
-        let mut series = F::series::<P>();
-        // in memory, where the compiler finds what belongs into one register
-        let series = black_box(&mut series);
-        let mut run = Run::<F, N, M, P> {
-            register: kernel.register,
-            settings: kernel.settings,
+        let mut series = F::series::<COEFFICIENTS>();
+        let mut run = Run::<F, N, M> {
+            register: self.register,
+            settings: self.settings,
             flow,
-            series,
+            // in memory, where the compiler finds what belongs into one register
+            series: black_box(&mut series),
         };
         let mut entry = Entry::default();
-        if let Job::Enter(interface) = kernel.job {
+        if let Job::Enter(interface) = self.job {
             entry = run.enter(interface);
         }
         loop {
             run.expand();
-            if let Job::Cross(interface) = kernel.job {
+            if let Job::Cross(interface) = self.job {
                 return run.cross(interface);
             }
             if run.step(&entry) {
@@ -100,49 +80,13 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Choice for InRegion<'_
     }
 }
 
-/// A kernel with P coefficients.
-struct Run<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> {
-    register: &'a mut Register<N>,
-    settings: &'a Settings,
-    flow: &'a F,
-    series: &'a mut F::Series<P>,
+/// A kernel in the region of a flow.
+pub(super) struct Run<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize> {
+    pub(super) register: &'a mut Register<N>,
+    pub(super) settings: &'a Settings,
+    pub(super) flow: &'a F,
+    series: &'a mut F::Series<COEFFICIENTS>,
 }
-
-/// The solution's series as it advances.
-struct Solution<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> {
-    flow: &'a F,
-    t: Wide,
-    series: &'a mut F::Series<P>,
-}
-
-impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Coefficients
-    for Solution<'_, F, N, M, P>
-{
-    #[inline(always)]
-    fn advance<K: Order>(&mut self, k: K) {
-        self.flow.advance(k, self.t, self.series);
-    }
-}
-
-/// The first coefficients of the switching functions as they advance.
-struct First<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize> {
-    flow: &'a F,
-    t: Wide,
-    states: &'a [[Wide; FIRST]; N],
-    series: <F::Boundary as Boundary<Wide, N>>::Series<FIRST>,
-}
-
-impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Coefficients for First<'_, F, N, M> {
-    #[inline(always)]
-    fn advance<K: Order>(&mut self, k: K) {
-        let boundary = self.flow.boundary();
-        boundary.advance(k, self.t, self.states, &mut self.series);
-    }
-}
-
-/// How the series of a boundary advance.
-type BoundaryUnrolled<F, const N: usize, const M: usize> =
-    <<F as Flow<Wide, N, M>>::Boundary as Boundary<Wide, N>>::Unrolled;
 
 /// How the lanes have come to where a step starts.
 #[derive(Default)]
@@ -163,15 +107,6 @@ struct Ahead {
     interface: Wide,
 }
 
-/// g at a place, and how it changes there.
-struct Approach<const N: usize> {
-    value: Wide,
-    gradient: Vector<Wide, N>,
-    field: Vector<Wide, N>,
-    /// dg/dt
-    rate: Wide,
-}
-
 impl<const N: usize> Register<N> {
     /// Where the lanes are.
     #[inline(always)]
@@ -186,7 +121,7 @@ impl<const N: usize> Register<N> {
 
     /// Moves the lanes of a mask.
     #[inline(always)]
-    fn move_to(&mut self, moved: Mask<WIDTH>, place: &Place<N>) {
+    pub(super) fn move_to(&mut self, moved: Mask<WIDTH>, place: &Place<N>) {
         self.t = moved.select(place.t, self.t);
         self.t_remainder = moved.select(place.t_remainder, self.t_remainder);
         for i in 0..N {
@@ -198,14 +133,14 @@ impl<const N: usize> Register<N> {
 
 /// Where a place has finite coordinates.
 #[inline(always)]
-fn is_finite<const N: usize>(place: &Place<N>) -> Mask<WIDTH> {
+pub(super) fn is_finite<const N: usize>(place: &Place<N>) -> Mask<WIDTH> {
     let zero = Wide::from_f64(0.0);
     // 0·u is 0 for a finite u and NaN otherwise
     let sum = (0..N).fold(zero, |sum, i| sum + zero * place.x[i]);
     sum.equals(zero)
 }
 
-impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_, F, N, M, P> {
+impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The interfaces that bound the region, with its sides.
     #[inline(always)]
     fn sides() -> &'static [(usize, crate::system::Side)] {
@@ -239,23 +174,13 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
     /// The solution's coefficients.
     #[inline(always)]
     fn expand(&mut self) {
-        let register = &*self.register;
-        let components = self.series.as_mut().iter_mut().zip(register.x.iter());
-        for (component, &x) in components {
-            component[0] = x;
-        }
-        let mut solution = Solution::<F, N, M, P> {
-            flow: self.flow,
-            t: register.t,
-            series: self.series,
-        };
-        F::Unrolled::run::<0, P, 1, _>(&mut solution, P);
+        let Register { t, x, .. } = &*self.register;
+        expand(self.flow, *t, x, self.series, COEFFICIENTS);
     }
 
     /// The steps that the tolerance allows; see [`crate::series::jet::Jet::step`].
     #[inline(always)]
     fn wanted(&self, enters: bool) -> Wide {
-        let order = P - 1;
         let zero = Wide::from_f64(0.0);
         let (mut last, mut second) = (zero, zero);
         let series = &self.series.as_ref()[..N];
@@ -272,10 +197,10 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
                 size = self.register.before.above(zero).select(size, first);
             }
             let scale = Wide::from_f64(1.0) / size.max(Wide::from_f64(f64::MIN_POSITIVE));
-            last = last.max(c[order].abs() * scale);
-            second = second.max(c[order - 1].abs() * scale);
+            last = last.max(c[ORDER].abs() * scale);
+            second = second.max(c[ORDER - 1].abs() * scale);
         }
-        let radius = inverse_root(last, order).min(inverse_root(second, order - 1));
+        let radius = inverse_root(last, ORDER).min(inverse_root(second, ORDER - 1));
         Wide::from_f64(self.settings.fraction) * radius
     }
 
@@ -292,7 +217,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
 
     /// The place after `elapsed`, without correction.
     #[inline(always)]
-    fn after(&self, elapsed: Wide) -> Place<N> {
+    pub(super) fn after(&self, elapsed: Wide) -> Place<N> {
         let mut place = self.register.place();
         place.add_time(elapsed);
         place.add(&self.increment(elapsed));
@@ -381,26 +306,11 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
             return ahead;
         }
         let field = self.flow.vector_field(place.t, &place.x);
-        let own = self.series.as_ref();
-        let states = std::array::from_fn(|i| {
-            std::array::from_fn(|k| {
-                if k < P {
-                    own[i][k]
-                } else {
-                    Wide::from_f64(0.0)
-                }
-            })
-        });
-        let mut first = First::<F, N, M> {
-            flow: self.flow,
-            t: self.register.t,
-            states: &states,
-            series: F::Boundary::series(),
-        };
-        BoundaryUnrolled::<F, N, M>::run::<0, FIRST, 0, _>(&mut first, FIRST);
+        let (t, solution) = (self.register.t, self.series.as_ref());
+        let first = first_switching::<_, F, N, M, COEFFICIENTS>(self.flow, t, solution);
         for &(interface, side) in Self::sides() {
             let sign = Wide::from_f64(side.sign());
-            let series = first.series.as_ref()[interface].map(|c| sign * c);
+            let series = first.as_ref()[interface].map(|c| sign * c);
             let boundary = self.flow.boundary();
             let value = boundary.switching_function(interface, place.t, &place.x);
             let (by_time, gradient) = boundary.switching_gradient(interface, place.t, &place.x);
@@ -417,76 +327,6 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize, const P: usize> Run<'_
             ahead.interface = seen.once.select(interface, ahead.interface);
         }
         ahead
-    }
-
-    /// Moves every lane to the interface: t̂* and x̂* such that g = 0 and ψ keeps its level.
-    #[inline(always)]
-    fn cross(&mut self, interface: usize) {
-        let n = Wide::from_f64;
-        let used = self.register.used();
-        let tau = self.register.tau;
-        let mut elapsed = self.register.elapsed;
-        let start = self.approach(interface, &self.register.place());
-        let mut place = self.after(elapsed);
-        let mut located = used.not();
-        for _ in 0..MOST_CORRECTIONS {
-            let Approach { value, rate, .. } = self.approach(interface, &place);
-            let inverse = n(1.0) / elapsed;
-            let chord = (start.value - value) * inverse;
-            let bend = inverse * (n(6.0) * chord + n(2.0) * start.rate + n(4.0) * rate);
-            let delta = -(value * rate) / (rate * rate - n(0.5) * value * bend);
-            located = (n(SMALL) * tau).above(delta.abs()).or(used.not());
-            if !located.not().any() {
-                break;
-            }
-            elapsed = (elapsed + delta).max(n(0.0)).min(tau);
-            place = self.after(elapsed);
-        }
-        let mut settled = used.not();
-        for _ in 0..MOST_CORRECTIONS {
-            let approach = self.approach(interface, &place);
-            let off = match self.settings.corrects {
-                true => self.register.correction(self.flow, &place),
-                false => Vector::from_element(n(0.0)),
-            };
-            let value = (0..N).fold(approach.value, |sum, i| {
-                approach.gradient[i].fused(off[i], sum)
-            });
-            let delta = -value / approach.rate;
-            let displacement: Vector<Wide, N> = vector(|i| approach.field[i].fused(delta, off[i]));
-            for i in 0..N {
-                place.remainder[i] += displacement[i];
-            }
-            place.normalise();
-            place.add_time(delta);
-            self.register.rate = approach.rate;
-            let coarse = self.register.coarse(&displacement, &place);
-            settled = coarse.not().or(used.not());
-            if !settled.not().any() {
-                break;
-            }
-        }
-        let crossed = located.and(settled).and(is_finite(&place));
-        self.register.move_to(crossed, &place);
-        self.register.before = crossed.select(tau, self.register.before);
-        self.register.steps += crossed.select(n(1.0), n(0.0));
-        self.register.note_crossed(crossed, interface);
-    }
-
-    /// g at a place, all of it.
-    #[inline(always)]
-    fn approach(&self, interface: usize, place: &Place<N>) -> Approach<N> {
-        let boundary = self.flow.boundary();
-        let value = boundary.switching_function(interface, place.t, &place.x);
-        let (by_time, gradient) = boundary.switching_gradient(interface, place.t, &place.x);
-        let field = self.flow.vector_field(place.t, &place.x);
-        let value = by_time.fused(place.t_remainder, value);
-        Approach {
-            value: (0..N).fold(value, |sum, i| gradient[i].fused(place.remainder[i], sum)),
-            rate: (0..N).fold(by_time, |sum, i| gradient[i].fused(field[i], sum)),
-            gradient,
-            field,
-        }
     }
 }
 

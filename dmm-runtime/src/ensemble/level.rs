@@ -6,6 +6,7 @@ use crate::lanes::Mask;
 use crate::minimal_norm::MinimalNorm;
 use crate::scalar::Scalar;
 use crate::system::{Flow, Matrix, Vector};
+use crate::time::two_sum;
 
 /// σ
 const SLOPE: f64 = 1.0 / 16.0;
@@ -23,15 +24,6 @@ pub(super) struct Place<const N: usize> {
     pub(super) t_remainder: Wide,
     pub(super) x: Vector<Wide, N>,
     pub(super) remainder: Vector<Wide, N>,
-}
-
-/// a + b = s + e exactly; see [`crate::time`].
-#[inline(always)]
-pub(super) fn two_sum(a: Wide, b: Wide) -> (Wide, Wide) {
-    let s = a + b;
-    let b_part = s - a;
-    let a_part = s - b_part;
-    (s, (a - a_part) + (b - b_part))
 }
 
 /// The vector of `value(0)`, `value(1)`, …

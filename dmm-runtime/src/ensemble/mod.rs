@@ -4,6 +4,7 @@
 //! the scheme allows: see [`Ensemble`].
 
 mod batch;
+mod crossing;
 mod glance;
 mod kernel;
 mod level;

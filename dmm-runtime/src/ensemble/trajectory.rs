@@ -95,7 +95,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         other: Option<(usize, Sys::Region)>,
     ) -> Result<usize, Error> {
         let (t, x) = (self.time.value, &self.state.x);
-        self.progress.pass(t, self.tau);
+        self.progress.window.pass(t, self.tau);
         let step = Taylor::step_number(&self.progress);
         self.crowd.count::<Sys, N>(step, interface, t, x)?;
         self.fresh = Some(interface);

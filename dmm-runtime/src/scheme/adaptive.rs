@@ -1,8 +1,9 @@
 //! One-step schemes with steps that a tolerance decides.
 
-use crate::error::{Error, StepFailure, invalid, number};
+use crate::error::{Error, StepFailure};
 use crate::linear::is_finite;
 use crate::observer::Observer;
+use crate::scheme::drive::{Window, check_tolerance};
 use crate::scheme::pace::Pacer;
 use crate::scheme::{Composed, Drive, Maps, OneStep, Step, Stuck, Symmetric};
 use crate::statistics::Statistics;
@@ -37,18 +38,7 @@ pub struct Progress {
     pub(crate) end: f64,
     /// The step that was last wanted.
     pub(crate) step: f64,
-    /// Transitions before this time belong to the step with this number.
-    window: (f64, u64),
-}
-
-impl Progress {
-    /// Notes a transition at `t` in a step over `tau`.
-    pub(crate) fn pass(&mut self, t: f64, tau: f64) {
-        let (end, number) = self.window;
-        if t >= end {
-            self.window = (t + tau, number + 1);
-        }
-    }
+    pub(crate) window: Window,
 }
 
 impl Adaptive<Symmetric> {
@@ -89,7 +79,7 @@ impl<Sch: OneStep> Maps for Adaptive<Sch> {
 
     fn leave(progress: &mut Progress, t: f64) {
         let step = progress.step;
-        progress.pass(t, step);
+        progress.window.pass(t, step);
     }
 }
 
@@ -97,23 +87,19 @@ impl<Sch: OneStep> Drive for Adaptive<Sch> {
     type Progress = Progress;
 
     fn check(&self, _t0: f64, _t_end: f64) -> Result<(), Error> {
-        if (f64::EPSILON..=0.1).contains(&self.tolerance) {
-            return Ok(());
-        }
-        let requirement = "must lie between 2.2e-16 and 0.1";
-        invalid("tolerance", number(self.tolerance), requirement)
+        check_tolerance(self.tolerance)
     }
 
     fn progress(&self, t0: f64, t_end: f64) -> Progress {
         Progress {
             end: t_end,
             step: 0.0,
-            window: (t0, 0),
+            window: Window::new(t0),
         }
     }
 
     fn step_number(progress: &Progress) -> u64 {
-        progress.window.1
+        progress.window.number
     }
 
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(

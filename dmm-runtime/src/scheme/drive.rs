@@ -84,6 +84,41 @@ impl<Sch: OneStep> Maps for Sch {
     }
 }
 
+/// Steps of a scheme's own choice by number, for the transitions within one to be counted.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Window {
+    /// Transitions before this time belong to the step.
+    end: f64,
+    /// Its number.
+    pub(crate) number: u64,
+}
+
+impl Window {
+    /// Before the first step.
+    pub(crate) fn new(t0: f64) -> Self {
+        Self { end: t0, number: 0 }
+    }
+
+    /// Notes a transition at `t` in a step over `tau`.
+    pub(crate) fn pass(&mut self, t: f64, tau: f64) {
+        if t >= self.end {
+            *self = Self {
+                end: t + tau,
+                number: self.number + 1,
+            };
+        }
+    }
+}
+
+/// Refuses a tolerance that no step can have.
+pub(super) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    if (f64::EPSILON..=0.1).contains(&tolerance) {
+        return Ok(());
+    }
+    let requirement = "must lie between 2.2e-16 and 0.1";
+    invalid("tolerance", number(tolerance), requirement)
+}
+
 /// A step that could not be made.
 #[derive(Clone, Copy, Debug)]
 pub struct Stuck<const N: usize> {

@@ -7,15 +7,11 @@
 //!
 //! τ⁻² = (‖c_p‖^{2/p} + ‖c_{p+1}‖^{2/(p+1)})/2 · tol^{−2/(p+1)}.
 
+use crate::series::jet::{FADING, LARGEST, SMALLEST};
 use crate::system::{Flow, Vector};
 
 /// Coefficients: enough for order 8.
 const COEFFICIENTS: usize = 10;
-
-/// Coefficients relative to the state beyond these are about to leave the range of doubles.
-const IN_RANGE: std::ops::Range<f64> = 1e-280..1e280;
-/// The last coefficient of a polynomial is larger; that of a series that underflows is not.
-const FADING: f64 = 1e-200;
 
 /// A tolerance, for a scheme of order p.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +51,7 @@ impl<const N: usize> Pacer<N> {
         let c = &series.as_ref()[..N];
         self.grow(c);
         let rate = |k: usize| self.root(c, k);
-        let in_range = |&k: &usize| IN_RANGE.contains(&self.largest(c, k));
+        let in_range = |&k: &usize| (SMALLEST..LARGEST).contains(&self.largest(c, k));
         let square =
             match (1..=p + 1).rev().find(in_range) {
                 Some(k) if k > p => 0.5 * (rate(p) + rate(p + 1)),

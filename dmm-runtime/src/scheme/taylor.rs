@@ -1,9 +1,10 @@
 //! Taylor's method of high order, with conservation.
 
-use crate::error::{Error, StepFailure, invalid, number};
+use crate::error::{Error, StepFailure};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
+use crate::scheme::drive::{Window, check_tolerance};
 use crate::scheme::{Drive, Stuck};
 use crate::series::jet::Jet;
 use crate::series::{Choice, Unroll};
@@ -120,18 +121,7 @@ pub struct Progress {
     pub(crate) decay: Decay,
     /// The size of the step before, or 0.
     pub(crate) step: f64,
-    /// Transitions before this time belong to the step with this number.
-    window: (f64, u64),
-}
-
-impl Progress {
-    /// Notes a transition at `t` in a step over `tau`.
-    pub(crate) fn pass(&mut self, t: f64, tau: f64) {
-        let (end, number) = self.window;
-        if t >= end {
-            self.window = (t + tau, number + 1);
-        }
-    }
+    pub(crate) window: Window,
 }
 
 /// A segment with P coefficients.
@@ -193,10 +183,7 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, F,
                 });
             }
             let state_after = state.after(&increment);
-            state = match scheme.corrects_level() {
-                true => level.reached(flow, next, state_after, &increment),
-                false => state_after.normalised(),
-            };
+            state = level.reached(flow, next, state_after, &increment, scheme.corrects_level());
             (time, before) = (next, wanted);
         }
         Ok(state.rounded())
@@ -207,11 +194,7 @@ impl Drive for Taylor {
     type Progress = Progress;
 
     fn check(&self, _t0: f64, _t_end: f64) -> Result<(), Error> {
-        if (f64::EPSILON..=0.1).contains(&self.tolerance) {
-            return Ok(());
-        }
-        let requirement = "must lie between 2.2e-16 and 0.1";
-        invalid("tolerance", number(self.tolerance), requirement)
+        check_tolerance(self.tolerance)
     }
 
     fn in_lanes(&self) -> Option<Taylor> {
@@ -225,12 +208,12 @@ impl Drive for Taylor {
             decay: Decay::new(self.fraction()),
             finest: self.finest(),
             step: 0.0,
-            window: (t0, 0),
+            window: Window::new(t0),
         }
     }
 
     fn step_number(progress: &Progress) -> u64 {
-        progress.window.1
+        progress.window.number
     }
 
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(

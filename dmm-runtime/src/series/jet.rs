@@ -2,6 +2,7 @@
 
 use super::polynomial::{increment, inverse_exponent, inverse_root};
 use super::{Coefficients, Order, Unroll};
+use crate::scalar::Scalar;
 use crate::system::{Boundary, Flow, Vector};
 
 /// The coefficients of g that bound it between the ends of a step.
@@ -15,19 +16,36 @@ pub(crate) struct Jet<F: Flow<f64, N, M>, const N: usize, const M: usize, const 
 }
 
 /// The solution's series as it advances.
-struct Solution<'a, F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> {
+struct Solution<'a, S: Scalar, F: Flow<S, N, M>, const N: usize, const M: usize, const P: usize> {
     flow: &'a F,
-    t: f64,
+    t: S,
     series: &'a mut F::Series<P>,
 }
 
-impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Coefficients
-    for Solution<'_, F, N, M, P>
+impl<S: Scalar, F: Flow<S, N, M>, const N: usize, const M: usize, const P: usize> Coefficients
+    for Solution<'_, S, F, N, M, P>
 {
     #[inline(always)]
     fn advance<K: Order>(&mut self, k: K) {
         self.flow.advance(k, self.t, self.series);
     }
+}
+
+/// The solution's coefficients at (t, x), those before number `end`.
+#[inline(always)]
+pub(crate) fn expand<S: Scalar, F, const N: usize, const M: usize, const P: usize>(
+    flow: &F,
+    t: S,
+    x: &Vector<S, N>,
+    series: &mut F::Series<P>,
+    end: usize,
+) where
+    F: Flow<S, N, M>,
+{
+    for (component, &x) in series.as_mut().iter_mut().zip(x) {
+        component[0] = x;
+    }
+    F::Unrolled::run::<0, P, 1, _>(&mut Solution { flow, t, series }, end);
 }
 
 /// The series of the switching functions as they advance.
@@ -53,15 +71,21 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Coeffic
     }
 }
 
-/// The first coefficients of the switching functions as they advance.
-struct First<'a, F: Flow<f64, N, M>, const N: usize, const M: usize> {
+/// The first coefficients of every switching function of a flow.
+type FirstSeries<S, F, const N: usize, const M: usize> =
+    <<F as Flow<S, N, M>>::Boundary as Boundary<S, N>>::Series<FIRST>;
+
+/// The same as they advance.
+struct First<'a, S: Scalar, F: Flow<S, N, M>, const N: usize, const M: usize> {
     flow: &'a F,
-    t: f64,
-    states: &'a [[f64; FIRST]; N],
-    series: <F::Boundary as Boundary<f64, N>>::Series<FIRST>,
+    t: S,
+    states: &'a [[S; FIRST]; N],
+    series: FirstSeries<S, F, N, M>,
 }
 
-impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Coefficients for First<'_, F, N, M> {
+impl<S: Scalar, F: Flow<S, N, M>, const N: usize, const M: usize> Coefficients
+    for First<'_, S, F, N, M>
+{
     #[inline(always)]
     fn advance<K: Order>(&mut self, k: K) {
         let boundary = self.flow.boundary();
@@ -70,8 +94,39 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Coefficients for First<
 }
 
 /// How the series of a boundary advance.
-type BoundaryUnrolled<F, const N: usize, const M: usize> =
-    <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Unrolled;
+type BoundaryUnrolled<S, F, const N: usize, const M: usize> =
+    <<F as Flow<S, N, M>>::Boundary as Boundary<S, N>>::Unrolled;
+
+/// The first coefficients of every switching function along a solution.
+///
+/// They are no part of the jet: what nobody reads of them is not even computed.
+#[inline(always)]
+pub(crate) fn first_switching<S: Scalar, F, const N: usize, const M: usize, const P: usize>(
+    flow: &F,
+    t: S,
+    solution: &[[S; P]],
+) -> FirstSeries<S, F, N, M>
+where
+    F: Flow<S, N, M>,
+{
+    let states = std::array::from_fn(|i| {
+        std::array::from_fn(|k| {
+            if k < P {
+                solution[i][k]
+            } else {
+                S::from_f64(0.0)
+            }
+        })
+    });
+    let mut first = First::<S, F, N, M> {
+        flow,
+        t,
+        states: &states,
+        series: F::Boundary::series(),
+    };
+    BoundaryUnrolled::<S, F, N, M>::run::<0, FIRST, 0, _>(&mut first, FIRST);
+    first.series
+}
 
 impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, N, M, P> {
     /// Room for the coefficients up to `order`; those above stay zero.
@@ -86,36 +141,13 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
     /// The solution's coefficients at (t, x).
     #[inline]
     pub(crate) fn expand(&mut self, flow: &F, t: f64, x: &Vector<f64, N>) {
-        let series = &mut self.solution;
-        for (component, &x) in series.as_mut().iter_mut().zip(x) {
-            component[0] = x;
-        }
-        let end = self.order + 1;
-        F::Unrolled::run::<0, P, 1, _>(&mut Solution { flow, t, series }, end);
+        expand(flow, t, x, &mut self.solution, self.order + 1);
     }
 
-    /// The first coefficients of every switching function, `each` of an interface.
-    ///
-    /// They are no part of the jet: what nobody reads of them is not even computed.
+    /// See [`first_switching`].
     #[inline(always)]
-    pub(crate) fn first_switching<T>(
-        &self,
-        flow: &F,
-        t: f64,
-        each: impl FnOnce(&[[f64; FIRST]]) -> T,
-    ) -> T {
-        let states = self.coefficients();
-        let states: [[f64; FIRST]; N] = std::array::from_fn(|i| {
-            std::array::from_fn(|k| if k < P { states[i][k] } else { 0.0 })
-        });
-        let mut first = First {
-            flow,
-            t,
-            states: &states,
-            series: F::Boundary::series(),
-        };
-        BoundaryUnrolled::<F, N, M>::run::<0, FIRST, 0, _>(&mut first, FIRST);
-        each(first.series.as_ref())
+    pub(crate) fn first_switching(&self, flow: &F, t: f64) -> FirstSeries<f64, F, N, M> {
+        first_switching::<f64, F, N, M, P>(flow, t, self.coefficients())
     }
 
     /// All coefficients of every switching function.
@@ -248,12 +280,12 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
 }
 
 /// Coefficients relative to x₀ beyond these are about to leave the range of doubles.
-const SMALLEST: f64 = 1e-280;
-const LARGEST: f64 = 1e280;
+pub(crate) const SMALLEST: f64 = 1e-280;
+pub(crate) const LARGEST: f64 = 1e280;
 /// Powers of this up to the highest order are in range.
 const LONGEST: f64 = 1e12;
 /// The last coefficient of a polynomial is larger; that of a series that underflows is not.
-const FADING: f64 = 1e-200;
+pub(crate) const FADING: f64 = 1e-200;
 
 /// The smaller of cₖ^(−1/k) for the last two coefficients.
 #[inline(always)]

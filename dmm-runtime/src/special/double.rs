@@ -14,7 +14,7 @@ use super::arc::coefficients;
 use super::extended::Extended;
 use super::series::power_series;
 use crate::scalar::Scalar;
-use crate::time::two_product;
+use crate::time::{two_product, two_sum};
 
 /// What π/2 as a double lacks: the next 53 bits.
 pub(super) const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
@@ -52,13 +52,8 @@ impl Double {
     /// a + b exactly.
     #[inline]
     pub(crate) fn sum(a: f64, b: f64) -> Self {
-        let high = a + b;
-        let b_part = high - a;
-        let a_part = high - b_part;
-        Self {
-            high,
-            low: (a - a_part) + (b - b_part),
-        }
+        let (high, low) = two_sum(a, b);
+        Self { high, low }
     }
 
     /// a/b

@@ -116,7 +116,7 @@ where
         self.time = time;
         self.statistics.steps += 1;
         self.progress.step = tau;
-        self.progress.pass(time.value, tau);
+        self.progress.window.pass(time.value, tau);
         if self.tell_point().is_break() {
             return Ok(SegmentEnd::Stopped);
         }

@@ -96,10 +96,7 @@ where
             if self.observer.next_output().is_some() {
                 self.outputs_along::<P, M, F>(flow, &level, jet, here, (tau, time));
             }
-            state = match corrects {
-                true => level.reached(flow, time, state, &(state.x - here.state.x)),
-                false => state.normalised(),
-            };
+            state = level.reached(flow, time, state, &(state.x - here.state.x), corrects);
             if !is_finite(&state.x) {
                 return Ended::Not(tau);
             }
@@ -135,29 +132,27 @@ where
         };
         let mut once: Option<Found> = None;
         let mut near = false;
-        jet.first_switching(flow, here.time.value, |series| {
-            for &(interface, side) in sides::<N, M, F>() {
-                let c = &series[interface];
-                let boundary = flow.boundary();
-                let value = boundary.switching_function(interface, time.value, &state.x);
-                let (by_time, gradient) =
-                    boundary.switching_gradient(interface, time.value, &state.x);
-                let slope = by_time + dot(&gradient, &field);
-                let fresh = fresh == Some(interface);
-                match glimpse.at(c, (value, slope), side.sign(), fresh) {
-                    Glance::Out => {}
-                    Glance::Once(elapsed) => {
-                        near |= once.is_some();
-                        once = Some(Found {
-                            interface,
-                            elapsed,
-                            start: Some((c[0], c[1])),
-                        });
-                    }
-                    Glance::Near => near = true,
+        let series = jet.first_switching(flow, here.time.value);
+        for &(interface, side) in sides::<N, M, F>() {
+            let c = &series.as_ref()[interface];
+            let boundary = flow.boundary();
+            let value = boundary.switching_function(interface, time.value, &state.x);
+            let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
+            let slope = by_time + dot(&gradient, &field);
+            let fresh = fresh == Some(interface);
+            match glimpse.at(c, (value, slope), side.sign(), fresh) {
+                Glance::Out => {}
+                Glance::Once(elapsed) => {
+                    near |= once.is_some();
+                    once = Some(Found {
+                        interface,
+                        elapsed,
+                        start: Some((c[0], c[1])),
+                    });
                 }
+                Glance::Near => near = true,
             }
-        });
+        }
         match (near, once) {
             (true, _) => match part.half() {
                 Some(half) => Ahead::Undecided(half),
@@ -243,10 +238,7 @@ where
             let time = Time::new(t);
             let elapsed = time.since(here.time).max(0.0).min(tau);
             let state = here.state.after(&jet.increment(elapsed));
-            let state = match corrects {
-                true => level.reached(flow, time, state, &(state.x - here.state.x)),
-                false => state,
-            };
+            let state = level.reached(flow, time, state, &(state.x - here.state.x), corrects);
             let point = Point {
                 t,
                 time,

@@ -23,6 +23,7 @@ use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
 use crate::walk::cubic::{Cubic, Doubt, Glance, Reading};
+use crate::walk::land::Found;
 use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between looks at the level.
@@ -31,9 +32,6 @@ const INTERVAL: u64 = 32;
 const PATIENCE: u32 = 4;
 /// g this many rounding errors of its terms away from zero is not distinguished from it.
 const NOISE: f64 = 16.0;
-/// Newton iterations of a crossing.
-const MOST_ITERATIONS: u32 = 20;
-
 /// g and dg/dt of every interface that bounds the region.
 type Readings<F, const N: usize, const M: usize> =
     <<F as Flow<f64, N, M>>::Boundary as Boundary<f64, N>>::Each<Reading>;
@@ -86,16 +84,6 @@ enum Course {
     },
     /// There is one, and none before.
     Crossing(Found),
-}
-
-/// A crossing.
-#[derive(Clone, Copy)]
-struct Found {
-    side: usize,
-    /// How long after the start of the step.
-    elapsed: f64,
-    /// Whether that is more than an estimate.
-    precise: bool,
 }
 
 /// The march through a segment.
@@ -321,82 +309,9 @@ where
         first
     }
 
-    /// Moves to the interface: t̂* and x̂* on the flow with g = 0.
-    #[inline(always)]
-    fn cross_on_flow<const M: usize, F: Flow<f64, N, M>>(
-        &mut self,
-        flow: &F,
-        ladder: &mut Ladder<N>,
-        level: &mut Level<N, M>,
-        found: Found,
-        tau: f64,
-    ) -> Result<SegmentEnd, Error> {
-        let (interface, _) = sides::<N, M, F>()[found.side];
-        let failed = |walk: &Self| Error::LocationFailed {
-            t: walk.time.value,
-            x: walk.state.x.iter().copied().collect(),
-            step_size: tau,
-            interface: Sys::INTERFACES[interface],
-        };
-        let meeting = self.meet(flow, ladder, found, tau);
-        let (mut time, mut state) = meeting.ok_or_else(|| failed(self))?;
-        let mut rate = slide(flow, interface, &mut time, &mut state);
-        if let Some(held) = self.held(flow, level, time, state) {
-            state = held;
-            rate = slide(flow, interface, &mut time, &mut state);
-        }
-        if !is_finite(&state.x) || !rate.is_finite() {
-            return Err(failed(self));
-        }
-        self.outputs_on_flow(ladder, time);
-        self.state = state;
-        self.time = time;
-        self.statistics.steps += 1;
-        self.progress.series.pass(time.value, tau);
-        if self.tell_point().is_break() {
-            return Ok(SegmentEnd::Stopped);
-        }
-        Ok(SegmentEnd::Crossed { interface, rate })
-    }
-
-    /// Where the flow meets an interface, but for a slide along the field; nothing if the root of
-    /// g is not found where it has to be.
-    #[inline(always)]
-    fn meet<const M: usize, F: Flow<f64, N, M>>(
-        &self,
-        flow: &F,
-        ladder: &mut Ladder<N>,
-        found: Found,
-        tau: f64,
-    ) -> Option<(Time, State<N>)> {
-        /// Nodes to try: an estimate is mostly next to the right one.
-        const MOST_NODES: u32 = 16;
-        let (interface, _) = sides::<N, M, F>()[found.side];
-        let mut elapsed = found.elapsed;
-        for _ in 0..MOST_NODES {
-            let (node, offset, first) = ladder.node(&self.state, elapsed);
-            let short = ladder.short(node);
-            let time = self.time.after(offset);
-            let (value, by_time, _) = switching(flow, interface, time, &node);
-            let mut along = ladder.along(found.side, &short.field());
-            along[0] += by_time;
-            // at the start of the step there may be a root that does not count
-            let start = match found.precise || offset == 0.0 {
-                true => first,
-                false => -value * along[0] / (along[0] * along[0] - value * along[1]),
-            };
-            let rest = fall(value, &along, start, tau)?;
-            if ladder.is_next_to(rest) {
-                return Some((time.after(rest), short.after(rest)));
-            }
-            elapsed = (offset + rest).clamp(0.0, tau);
-        }
-        None
-    }
-
     /// The state put back on its level, if it has left it.
     #[inline(always)]
-    fn held<const M: usize, F: Flow<f64, N, M>>(
+    pub(super) fn held<const M: usize, F: Flow<f64, N, M>>(
         &self,
         flow: &F,
         level: &mut Level<N, M>,
@@ -410,7 +325,7 @@ where
 
     /// Serves the output times up to `end`, the end of a step.
     #[inline(always)]
-    fn outputs_on_flow(&mut self, ladder: &mut Ladder<N>, end: Time) {
+    pub(super) fn outputs_on_flow(&mut self, ladder: &mut Ladder<N>, end: Time) {
         while let Some(t) = self.observer.next_output()
             && t <= end.value
         {
@@ -456,70 +371,12 @@ fn put_back<const N: usize, const M: usize, F: Flow<f64, N, M>>(
 ) -> Option<State<N>> {
     level.rescale(flow, time.value, &state);
     let strays = level.strays(flow, time, &state);
-    strays.then(|| level.reached(flow, time, state, &(state.x - before)))
+    strays.then(|| level.reached(flow, time, state, &(state.x - before), true))
 }
 
 /// The interfaces that bound the region of a flow, with its sides.
 #[inline(always)]
-fn sides<const N: usize, const M: usize, F: Flow<f64, N, M>>() -> &'static [(usize, Side)] {
+pub(super) fn sides<const N: usize, const M: usize, F: Flow<f64, N, M>>() -> &'static [(usize, Side)]
+{
     <F::Boundary as Boundary<f64, N>>::SIDES
-}
-
-/// g with the remainders of time and state, ∂ₜg and ∇g.
-#[inline(always)]
-fn switching<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
-    interface: usize,
-    time: Time,
-    state: &State<N>,
-) -> (f64, f64, Vector<f64, N>) {
-    let boundary = flow.boundary();
-    let value = boundary.switching_function(interface, time.value, &state.x);
-    let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
-    let rest = gradient.dot(&state.remainder) + by_time * time.remainder;
-    (value + rest, by_time, gradient)
-}
-
-/// Moves along the field to g = 0, which is next to the state; dg/dt.
-#[inline(always)]
-fn slide<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
-    interface: usize,
-    time: &mut Time,
-    state: &mut State<N>,
-) -> f64 {
-    let (value, by_time, gradient) = switching(flow, interface, *time, state);
-    let field = flow.vector_field(time.value, &state.x);
-    let rate = by_time + gradient.dot(&field);
-    let delta = -value / rate;
-    state.remainder += field * delta;
-    *state = state.normalised();
-    *time = time.after(delta);
-    rate
-}
-
-/// The root of c + Σ cₖ dᵏ, k from 1, next to `start`, by Halley's method; nothing if it is further
-/// than it can be.
-#[inline(always)]
-fn fall<const T: usize>(c: f64, along: &[f64; T], start: f64, scale: f64) -> Option<f64> {
-    /// The method leaves the third power of the last correction, and the slide the square of that.
-    const LAST: f64 = 5e-4;
-    let mut d = start;
-    for _ in 0..MOST_ITERATIONS {
-        let (mut value, mut slope, mut half_bend) = (0.0f64, 0.0f64, 0.0f64);
-        for &coefficient in along.iter().rev() {
-            half_bend = half_bend.fused(d, slope);
-            slope = slope.fused(d, value);
-            value = value.fused(d, coefficient);
-        }
-        half_bend = half_bend.fused(d, slope);
-        slope = slope.fused(d, value);
-        value = value.fused(d, c);
-        let delta = value * slope / (slope * slope - value * half_bend);
-        d -= delta;
-        if delta.abs() <= LAST * scale {
-            return Some(d);
-        }
-    }
-    None
 }

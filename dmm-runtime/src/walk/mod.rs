@@ -10,6 +10,7 @@ mod cubic;
 mod expand;
 mod glance;
 mod interfaces;
+mod land;
 mod march;
 mod run;
 mod steps;

@@ -218,38 +218,52 @@ fn elliptic<Sch: Scheme, Loc: Locator>(
 
 /// Formulas that have no value, and fields that do not say how to go on.
 fn formulas<Sch: Scheme>(rows: &mut Vec<Row>, name: &str, scheme: &Sch) {
-    let system = Blowup {};
-    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0]);
-    rows.push(judge(
+    let mut row = |row| rows.push(row);
+    row(refused(
         "blow-up at t = 1",
-        name,
         "left the domain",
-        result.run_until(T_END),
+        name,
+        &Blowup {},
+        scheme,
+        [1.0],
     ));
-    let system = Logarithm {};
-    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0, 0.0]);
-    rows.push(judge(
+    row(refused(
         "logarithm ends at t = 1",
-        name,
         "left the domain",
-        result.run_until(T_END),
+        name,
+        &Logarithm {},
+        scheme,
+        [1.0, 0.0],
     ));
-    let system = Stuck {};
-    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0, 1.0]);
-    rows.push(judge(
+    row(refused(
         "sliding from t = 1",
-        name,
         "sliding",
-        result.run_until(T_END),
-    ));
-    let system = Tangent {};
-    let result = Integrator::new(&system, scheme.clone()).initial(0.0, [1.0, 1.0]);
-    rows.push(judge(
-        "tangential at t = 1",
         name,
-        "tangential",
-        result.run_until(T_END),
+        &Stuck {},
+        scheme,
+        [1.0, 1.0],
     ));
+    row(refused(
+        "tangential at t = 1",
+        "tangential",
+        name,
+        &Tangent {},
+        scheme,
+        [1.0, 1.0],
+    ));
+}
+
+/// A run that has to be refused in the expected way.
+fn refused<Sys: System<N>, Sch: Scheme, const N: usize>(
+    what: &str,
+    expected: &str,
+    name: &str,
+    system: &Sys,
+    scheme: &Sch,
+    x0: [f64; N],
+) -> Row {
+    let problem = Integrator::new(system, scheme.clone()).initial(0.0, x0);
+    judge(what, name, expected, problem.run_until(T_END))
 }
 
 /// All these runs have to be refused, at t = 1 or at the first step or crossing after it, with

@@ -46,6 +46,20 @@ fn nearly_tangential_crossings_are_counted_right() {
 }
 
 #[test]
+fn a_crossing_soon_after_another_is_not_taken_for_it() {
+    for k in 0..200 {
+        let angle = 0.5 * 10f64.powf(-f64::from(k) / 50.0);
+        let wall = Wall { level: angle.cos() };
+        let exact: Vec<f64> = (0..5)
+            .flat_map(|turn| [-angle, angle].map(|a| PI * (f64::from(2 * turn) + 0.5) + a))
+            .collect();
+        // an error of the level is one of the angle, times 1/sin
+        let error = 1e-15 / angle.sin() + 1e-14;
+        assert_near(&times(&wall, [0.0, 1.0], 9.75 * PI), &exact, error);
+    }
+}
+
+#[test]
 fn a_tangential_touch_is_no_transition() {
     for level in [
         1.0,

@@ -253,36 +253,3 @@ fn what_overflows_is_refused_where_it_does() {
     let exact = (1000.0 * end.point.t).exp();
     assert!(end.point.t > 0.35 && (end.point.x[0] / exact - 1.0).abs() < 1e-12);
 }
-
-pws! {
-    /// A circle that meets a wall, which changes nothing.
-    system Circle {
-        state q, p;
-        param c = 1.0;
-        interface wall = q - c;
-        region before where wall < 0 {
-            der(q) = p;
-            der(p) = -q;
-            conserved energy = (p^2 + q^2) / 2;
-        }
-        region beyond where wall > 0 {
-            der(q) = p;
-            der(p) = -q;
-            conserved energy = (p^2 + q^2) / 2;
-        }
-    }
-}
-
-#[test]
-fn a_crossing_soon_after_another_is_not_taken_for_it() {
-    for k in 0..200 {
-        let angle = 0.5 * 10f64.powf(-f64::from(k) / 50.0);
-        let circle = Circle { c: angle.cos() };
-        let exact: Vec<f64> = (0..5)
-            .flat_map(|turn| [-angle, angle].map(|a| PI * f64::from(2 * turn + 1) + a))
-            .collect();
-        // an error of c is one of the angle, times 1/sin
-        let error = 1e-15 / angle.sin() + 1e-14;
-        assert_near(&times(&circle, [-1.0, 0.0], 30.0), &exact, error);
-    }
-}

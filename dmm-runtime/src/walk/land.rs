@@ -1,0 +1,169 @@
+//! The point where an exact flow meets an interface: the root of g in the short series at the
+//! nearest node of the ladder, then a slide along the field, which is a straight line over what is
+//! left.
+
+use crate::error::Error;
+use crate::exact::Ladder;
+use crate::level::Level;
+use crate::linear::is_finite;
+use crate::observer::Observer;
+use crate::scalar::Scalar;
+use crate::scheme::Best;
+use crate::state::State;
+use crate::system::{Boundary, Flow, System, Vector};
+use crate::time::Time;
+use crate::transition::Locator;
+use crate::walk::march::sides;
+use crate::walk::{SegmentEnd, Walk};
+
+/// Newton iterations of a crossing.
+const MOST_ITERATIONS: u32 = 20;
+
+/// A crossing.
+#[derive(Clone, Copy)]
+pub(super) struct Found {
+    pub(super) side: usize,
+    /// How long after the start of the step.
+    pub(super) elapsed: f64,
+    /// Whether that is more than an estimate.
+    pub(super) precise: bool,
+}
+
+impl<Sys, Loc, Obs, const N: usize> Walk<'_, Sys, Best, Loc, Obs, N>
+where
+    Sys: System<N>,
+    Loc: Locator,
+    Obs: Observer<Sys::Region, N>,
+{
+    /// Moves to the interface: t̂* and x̂* on the flow with g = 0.
+    #[inline(always)]
+    pub(super) fn cross_on_flow<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        ladder: &mut Ladder<N>,
+        level: &mut Level<N, M>,
+        found: Found,
+        tau: f64,
+    ) -> Result<SegmentEnd, Error> {
+        let (interface, _) = sides::<N, M, F>()[found.side];
+        let failed = |walk: &Self| Error::LocationFailed {
+            t: walk.time.value,
+            x: walk.state.x.iter().copied().collect(),
+            step_size: tau,
+            interface: Sys::INTERFACES[interface],
+        };
+        let meeting = self.meet(flow, ladder, found, tau);
+        let (mut time, mut state) = meeting.ok_or_else(|| failed(self))?;
+        let mut rate = slide(flow, interface, &mut time, &mut state);
+        if let Some(held) = self.held(flow, level, time, state) {
+            state = held;
+            rate = slide(flow, interface, &mut time, &mut state);
+        }
+        if !is_finite(&state.x) || !rate.is_finite() {
+            return Err(failed(self));
+        }
+        self.outputs_on_flow(ladder, time);
+        self.state = state;
+        self.time = time;
+        self.statistics.steps += 1;
+        self.progress.series.window.pass(time.value, tau);
+        if self.tell_point().is_break() {
+            return Ok(SegmentEnd::Stopped);
+        }
+        Ok(SegmentEnd::Crossed { interface, rate })
+    }
+
+    /// Where the flow meets an interface, but for a slide along the field; nothing if the root of
+    /// g is not found where it has to be.
+    #[inline(always)]
+    fn meet<const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        ladder: &mut Ladder<N>,
+        found: Found,
+        tau: f64,
+    ) -> Option<(Time, State<N>)> {
+        /// Nodes to try: an estimate is mostly next to the right one.
+        const MOST_NODES: u32 = 16;
+        let (interface, _) = sides::<N, M, F>()[found.side];
+        let mut elapsed = found.elapsed;
+        for _ in 0..MOST_NODES {
+            let (node, offset, first) = ladder.node(&self.state, elapsed);
+            let short = ladder.short(node);
+            let time = self.time.after(offset);
+            let (value, by_time, _) = switching(flow, interface, time, &node);
+            let mut along = ladder.along(found.side, &short.field());
+            along[0] += by_time;
+            // at the start of the step there may be a root that does not count
+            let start = match found.precise || offset == 0.0 {
+                true => first,
+                false => -value * along[0] / (along[0] * along[0] - value * along[1]),
+            };
+            let rest = fall(value, &along, start, tau)?;
+            if ladder.is_next_to(rest) {
+                return Some((time.after(rest), short.after(rest)));
+            }
+            elapsed = (offset + rest).clamp(0.0, tau);
+        }
+        None
+    }
+}
+
+/// g with the remainders of time and state, ∂ₜg and ∇g.
+#[inline(always)]
+fn switching<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    interface: usize,
+    time: Time,
+    state: &State<N>,
+) -> (f64, f64, Vector<f64, N>) {
+    let boundary = flow.boundary();
+    let value = boundary.switching_function(interface, time.value, &state.x);
+    let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
+    let rest = gradient.dot(&state.remainder) + by_time * time.remainder;
+    (value + rest, by_time, gradient)
+}
+
+/// Moves along the field to g = 0, which is next to the state; dg/dt.
+#[inline(always)]
+fn slide<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    flow: &F,
+    interface: usize,
+    time: &mut Time,
+    state: &mut State<N>,
+) -> f64 {
+    let (value, by_time, gradient) = switching(flow, interface, *time, state);
+    let field = flow.vector_field(time.value, &state.x);
+    let rate = by_time + gradient.dot(&field);
+    let delta = -value / rate;
+    state.remainder += field * delta;
+    *state = state.normalised();
+    *time = time.after(delta);
+    rate
+}
+
+/// The root of c + Σ cₖ dᵏ, k from 1, next to `start`, by Halley's method; nothing if it is further
+/// than it can be.
+#[inline(always)]
+fn fall<const T: usize>(c: f64, along: &[f64; T], start: f64, scale: f64) -> Option<f64> {
+    /// The method leaves the third power of the last correction, and the slide the square of that.
+    const LAST: f64 = 5e-4;
+    let mut d = start;
+    for _ in 0..MOST_ITERATIONS {
+        let (mut value, mut slope, mut half_bend) = (0.0f64, 0.0f64, 0.0f64);
+        for &coefficient in along.iter().rev() {
+            half_bend = half_bend.fused(d, slope);
+            slope = slope.fused(d, value);
+            value = value.fused(d, coefficient);
+        }
+        half_bend = half_bend.fused(d, slope);
+        slope = slope.fused(d, value);
+        value = value.fused(d, c);
+        let delta = value * slope / (slope * slope - value * half_bend);
+        d -= delta;
+        if delta.abs() <= LAST * scale {
+            return Some(d);
+        }
+    }
+    None
+}
