@@ -49,6 +49,8 @@ struct Switching<const N: usize> {
     /// Σ|cᵢ||Aᵢⱼ|, and |γ| + Σ|cᵢ bᵢ|: |dg/dt| is made of such terms.
     rate: Vector<f64, N>,
     offset: f64,
+    /// How long after the start of its step the last crossing was.
+    expected: f64,
 }
 
 /// The ladder of a region.
@@ -125,6 +127,7 @@ impl<const N: usize> Ladder<N> {
             offset: by_time.abs() + products.sum::<f64>(),
             fresh: self.fresh(&gradient),
             settled: Vec::new(),
+            expected: f64::NAN,
             gradient,
         }
     }
@@ -264,6 +267,25 @@ impl<const N: usize> Ladder<N> {
         (state, offset, tau - offset)
     }
 
+    /// About how long after the start of its step a crossing is, of which there is an estimate. As
+    /// long as the last one where that is not far from it: that is known before the step has been
+    /// looked at, so that the processor locates the crossing meanwhile.
+    #[inline(always)]
+    pub(crate) fn expected(&self, side: usize, estimate: f64) -> f64 {
+        let expected = self.switching[side].expected;
+        if (expected - estimate).abs() <= self.lowest {
+            expected
+        } else {
+            unexpected(estimate)
+        }
+    }
+
+    /// Keeps how long after the start of its step a crossing was.
+    #[inline(always)]
+    pub(crate) fn keep(&mut self, side: usize, elapsed: f64) {
+        self.switching[side].expected = elapsed;
+    }
+
     /// Whether a short time is so short that the node is the nearest one, or about that.
     #[inline(always)]
     pub(crate) fn is_next_to(&self, rest: f64) -> bool {
@@ -301,6 +323,13 @@ impl<const N: usize> Ladder<N> {
         let (node, _, rest) = self.node(&state, rest);
         self.short(node).after(rest)
     }
+}
+
+/// The estimate itself. A call, so that the other case is a branch that need not wait for it.
+#[cold]
+#[inline(never)]
+fn unexpected(estimate: f64) -> f64 {
+    estimate
 }
 
 /// The flow over `number` times the lowest step, of those over its powers of two.

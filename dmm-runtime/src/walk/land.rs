@@ -86,7 +86,10 @@ where
         /// Nodes to try: an estimate is mostly next to the right one.
         const MOST_NODES: u32 = 16;
         let (interface, _) = sides::<N, M, F>()[found.side];
-        let mut elapsed = found.elapsed;
+        let mut elapsed = match found.precise {
+            true => found.elapsed,
+            false => ladder.expected(found.side, found.elapsed),
+        };
         for _ in 0..MOST_NODES {
             let (node, offset, first) = ladder.node(&self.state, elapsed);
             let short = ladder.short(node);
@@ -101,6 +104,7 @@ where
             };
             let rest = fall(value, &along, start, tau)?;
             if ladder.is_next_to(rest) {
+                ladder.keep(found.side, offset + rest);
                 return Some((time.after(rest), short.after(rest)));
             }
             elapsed = (offset + rest).clamp(0.0, tau);
