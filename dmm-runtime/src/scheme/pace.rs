@@ -7,7 +7,7 @@
 //!
 //! τ⁻² = (‖c_p‖^{2/p} + ‖c_{p+1}‖^{2/(p+1)})/2 · tol^{−2/(p+1)}.
 
-use crate::series::jet::{FADING, LARGEST, SMALLEST};
+use crate::series::jet::{LARGEST, SMALLEST, is_polynomial};
 use crate::system::{Flow, Vector};
 
 /// Coefficients: enough for order 8.
@@ -52,18 +52,22 @@ impl<const N: usize> Pacer<N> {
         self.grow(c);
         let rate = |k: usize| self.root(c, k);
         let in_range = |&k: &usize| (SMALLEST..LARGEST).contains(&self.largest(c, k));
-        let square =
-            match (1..=p + 1).rev().find(in_range) {
-                Some(k) if k > p => 0.5 * (rate(p) + rate(p + 1)),
-                // of a polynomial
-                Some(k) if self.largest(c, k + 1) == 0.0 && self.largest(c, k) > FADING => {
-                    if k == p { 0.5 * rate(p) } else { 0.0 }
-                }
-                // the highest order that is neither lost to underflow nor to overflow
-                Some(k) => rate(k),
-                None if (1..=p + 1).all(|k| self.largest(c, k) == 0.0) => 0.0,
-                None => f64::NAN,
-            };
+        // of a polynomial
+        let ends = |k: usize| {
+            let (last, next) = (self.largest(c, k), self.largest(c, k + 1));
+            next == 0.0 && is_polynomial(k, last, self.smallest())
+        };
+        let square = match (1..=p + 1).rev().find(in_range) {
+            Some(k) if k > p => 0.5 * (rate(p) + rate(p + 1)),
+            Some(k) if ends(k) => match k == p {
+                true => 0.5 * rate(p),
+                false => 0.0,
+            },
+            // the highest order that is neither lost to underflow nor to overflow
+            Some(k) => rate(k),
+            None if (1..=p + 1).all(|k| self.largest(c, k) == 0.0) => 0.0,
+            None => f64::NAN,
+        };
         square.sqrt() * self.factor
     }
 
@@ -78,6 +82,12 @@ impl<const N: usize> Pacer<N> {
             0.0,
             |largest, part| if part <= largest { largest } else { part },
         )
+    }
+
+    /// The smallest size of a component that is not always zero.
+    fn smallest(&self) -> f64 {
+        let sizes = self.size.iter().filter(|&&size| size > f64::MIN_POSITIVE);
+        sizes.fold(f64::INFINITY, |smallest, &size| smallest.min(size))
     }
 
     /// ‖cₖ‖^{2/k}

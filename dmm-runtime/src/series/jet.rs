@@ -227,7 +227,13 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
         let order = self.order();
         let in_range = |k: usize| (SMALLEST..LARGEST).contains(&(largest(k) * scale));
         let ends = (2..=order).rev().find(|&k| largest(k) != 0.0);
-        let is_polynomial = ends.is_none_or(|k| k < order && largest(k) * scale > FADING);
+        let is_polynomial = ends.is_none_or(|k| {
+            let components = self.coefficients().iter().map(|c| c[0].abs());
+            let smallest = components
+                .filter(|&size| size > 0.0)
+                .fold(1.0 / scale, f64::min);
+            k < order && is_polynomial(k, largest(k) * scale, smallest)
+        });
         if is_polynomial || in_range(order) {
             let order = self.decisive();
             let step = radius(order, largest(order) * scale, largest(order - 1) * scale);
@@ -284,8 +290,14 @@ pub(crate) const SMALLEST: f64 = 1e-280;
 pub(crate) const LARGEST: f64 = 1e280;
 /// Powers of this up to the highest order are in range.
 const LONGEST: f64 = 1e12;
-/// The last coefficient of a polynomial is larger; that of a series that underflows is not.
-pub(crate) const FADING: f64 = 1e-200;
+
+/// Whether a series that ends with order k, whose coefficient relative to the first one is `last`,
+/// is a polynomial: had it gone on as before, the next coefficient of the component of size
+/// `smallest`, and what it is computed from, would not have been lost to underflow.
+pub(crate) fn is_polynomial(k: usize, last: f64, smallest: f64) -> bool {
+    const LOST: f64 = 1e-200;
+    smallest * last.powf((k + 1) as f64 / k as f64) > LOST
+}
 
 /// The smaller of cₖ^(−1/k) for the last two coefficients.
 #[inline(always)]

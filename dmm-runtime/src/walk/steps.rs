@@ -108,6 +108,10 @@ where
                     }
                     false => next.normalised(),
                 };
+                // ψ may leave the range of doubles where the state does not
+                if !is_finite(&next.x) {
+                    break Err(StepFailure::NotFinite);
+                }
                 finite = (next, node + 1);
                 values = readings::<N, M, F>(flow, t1, &next.x);
             }
@@ -213,14 +217,16 @@ where
         time: Time,
     ) -> Result<(), Error> {
         let mut state = self.state.after(increment);
-        if !is_finite(&state.x) {
-            return Err(self.failure(StepFailure::NotFinite, tau));
-        }
         if self.scheme.map().corrects_level() {
             let weights = Weights::new(&state.x, increment);
             state.remainder += level.correction(flow, time, &state, &weights);
         }
-        self.state = state.normalised();
+        let state = state.normalised();
+        // neither the step nor the correction has left the range of doubles
+        if !is_finite(&state.x) {
+            return Err(self.failure(StepFailure::NotFinite, tau));
+        }
+        self.state = state;
         self.time = time;
         self.statistics.steps += 1;
         Ok(())
