@@ -9,10 +9,10 @@
 //! | `ensemble PROBLEM SCHEME CONTROL T_END FILE HOW REPEATS` | final states, seconds of all runs |
 //!
 //! `CONTROL` is `step=1e-3` or `tolerance=1e-9`; `FILE` is a CSV file with a run a row, whose
-//! columns are states and parameters; `HOW` is `lanes` or `single`. What cannot be answered is `{"error": "…"}`. A run starts
-//! from the problem's initial value, and what is timed is all of it: nothing is kept from one to
-//! the next. Seconds are of the thread's processor time, which other work on the machine
-//! lengthens little.
+//! columns are states and parameters; `HOW` is `lanes` or `single`. What cannot be answered is
+//! `{"error": "…"}`. A run starts from the problem's initial value, and what is timed is all of
+//! it: nothing is kept from one to the next. Seconds are of the thread's processor time, which
+//! other work on the machine lengthens little.
 
 use std::error::Error;
 use std::io::{BufRead, Write};

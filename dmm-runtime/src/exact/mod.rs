@@ -4,6 +4,7 @@
 mod ladder;
 mod propagator;
 mod short;
+mod switching;
 
 pub(crate) use ladder::{FIRST, Ladder, Ladders};
 

@@ -53,11 +53,11 @@ impl<const N: usize> Propagator<N> {
         for k in 1..=MOST_TERMS {
             let factor = Double::ratio(h, f64::from(k));
             term = product(a, &term, factor);
-            let mut largest = add(&mut sum.matrix, &term);
+            let mut largest = add(sum.matrix.as_flattened_mut(), term.as_flattened());
             if sum.shifts {
                 let factor = Double::ratio(h, f64::from(k + 1));
                 column = image(a, &column, factor);
-                largest = largest.max(add_column(&mut sum.offset, &column));
+                largest = largest.max(add(&mut sum.offset, &column));
             }
             if largest <= SMALL {
                 return sum.finished(coefficients, h, k, (&term, &column));
@@ -108,8 +108,9 @@ impl<const N: usize> Propagator<N> {
             let sizes = self.matrix.iter().flatten();
             let size = sizes.fold(0.0f64, |size, entry| size.max(entry.high.abs()));
             if largest <= NEGLIGIBLE * size {
-                add(&mut self.matrix, &rest.map(|row| row.map(Double::from)));
-                add_column(&mut self.offset, &shift.map(Double::from));
+                let rest = rest.map(|row| row.map(Double::from));
+                add(self.matrix.as_flattened_mut(), rest.as_flattened());
+                add(&mut self.offset, &shift.map(Double::from));
                 return Some(self);
             }
         }
@@ -194,6 +195,11 @@ impl<const N: usize> Propagator<N> {
     }
 }
 
+/// The row vector r A.
+pub(super) fn times<const N: usize>(a: &Rows<f64, N>, row: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|j| row.iter().zip(a).map(|(r, own)| r * own[j]).sum())
+}
+
 fn identity<const N: usize>() -> Rows<Double, N> {
     let mut matrix = [[Double::default(); N]; N];
     for (i, row) in matrix.iter_mut().enumerate() {
@@ -232,18 +238,7 @@ fn image<const N: usize>(a: &Rows<f64, N>, u: &[Double; N], c: Double) -> [Doubl
 }
 
 /// Adds a term to a sum; the largest entry of the term, relative to that of the sum.
-fn add<const N: usize>(sum: &mut Rows<Double, N>, term: &Rows<Double, N>) -> f64 {
-    let (mut of_sum, mut of_term) = (0.0f64, 0.0f64);
-    for (sum, term) in sum.as_flattened_mut().iter_mut().zip(term.as_flattened()) {
-        *sum = sum.plus(*term);
-        of_sum = of_sum.max(sum.high.abs());
-        of_term = of_term.max(term.high.abs());
-    }
-    relative(of_term, of_sum)
-}
-
-/// The same for a column.
-fn add_column<const N: usize>(sum: &mut [Double; N], term: &[Double; N]) -> f64 {
+fn add(sum: &mut [Double], term: &[Double]) -> f64 {
     let (mut of_sum, mut of_term) = (0.0f64, 0.0f64);
     for (sum, term) in sum.iter_mut().zip(term) {
         *sum = sum.plus(*term);
