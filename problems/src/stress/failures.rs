@@ -6,7 +6,8 @@ use dmm_runtime::{
     OneStep, Scheme, Statistics, Step, StepFailure, Symmetric, System, Taylor, Vector, pws,
 };
 
-use super::{Extent, Progress, Report, Row, Verdict, name};
+use super::{Extent, Observe, Row, Verdict, name};
+use crate::picture::Panel;
 use crate::systems::Elliptic;
 
 pws! {
@@ -63,35 +64,28 @@ const STEP_SIZE: f64 = 0.01;
 const FROM: f64 = 1.0;
 const T_END: f64 = 3.0;
 
-pub(super) fn study(_extent: Extent, progress: Progress<'_>) -> Report {
-    progress("solvers and locators");
-    let mut rows = vec![
-        solver(
-            "no convergence",
-            StepFailure::NoConvergence {
-                residual: 1.0,
-                iterations: 30,
-            },
-        ),
-        solver("no finite value", StepFailure::NotFinite),
-        silent_solver(),
-    ];
+pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
+    observer.begins("solvers and locators");
+    let stuck = StepFailure::NoConvergence {
+        residual: 1.0,
+        iterations: 30,
+    };
+    observer.ended(solver("no convergence", stuck));
+    observer.ended(solver("no finite value", StepFailure::NotFinite));
+    observer.ended(silent_solver());
     for (what, locator) in [
         ("locator finds nothing", Faulty::Nothing),
         ("locator returns no number", Faulty::NotFinite),
     ] {
-        rows.push(located(what, locator));
+        observer.ended(located(what, locator));
     }
-    progress("formulas");
+    observer.begins("formulas");
     for tolerance in [1e-3, 1e-12] {
         let scheme = Taylor::tolerance(tolerance);
-        formulas(&mut rows, &format!("Taylor {tolerance:e}"), &scheme);
+        formulas(observer, &format!("Taylor {tolerance:e}"), &scheme);
     }
-    formulas(&mut rows, "Symmetric", &Symmetric::step_size(STEP_SIZE));
-    Report {
-        rows,
-        panels: Vec::new(),
-    }
+    formulas(observer, "Symmetric", &Symmetric::step_size(STEP_SIZE));
+    Vec::new()
 }
 
 /// [`Symmetric`], until it fails.
@@ -217,8 +211,8 @@ fn elliptic<Sch: Scheme, Loc: Locator>(
 }
 
 /// Formulas that have no value, and fields that do not say how to go on.
-fn formulas<Sch: Scheme>(rows: &mut Vec<Row>, name: &str, scheme: &Sch) {
-    let mut row = |row| rows.push(row);
+fn formulas<Sch: Scheme>(observer: &mut dyn Observe, name: &str, scheme: &Sch) {
+    let mut row = |row| observer.ended(row);
     row(refused(
         "blow-up at t = 1",
         "left the domain",

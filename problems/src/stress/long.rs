@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use super::growth::Growth;
-use super::{Extent, Progress, Report, Row, Setting, Verdict, name};
+use super::{Extent, Observe, Row, Setting, Verdict, name};
 use crate::method::Method;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Problem, Record, Run, Sink};
@@ -48,8 +48,7 @@ const CASES: [(&str, Setting, u64); 6] = [
     ),
 ];
 
-pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
-    let mut report = Report::default();
+pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let mut panel = Panel::new(
         "within segments",
         Axis::new("steps", Scale::Decades),
@@ -60,17 +59,16 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     );
     for (k, (name, setting, steps)) in CASES.into_iter().enumerate() {
         let what = format!("{name}, {}", setting.name);
-        progress(&what);
+        observer.begins(&what);
         let Ok(problem) = find(name) else {
             continue;
         };
         let (row, growth) = measure(&*problem, &setting, steps / extent.of(1, 5000));
-        report.rows.push(row);
+        observer.ended(row);
         let colour = COLOURS[k % COLOURS.len()];
         panel.curve(Some(what), growth.points(), Stroke::Marked, colour);
     }
-    report.panels.push(panel);
-    report
+    vec![panel]
 }
 
 /// |ψ − ψ_ref| over a number of steps.

@@ -81,15 +81,6 @@ impl Row {
     }
 }
 
-/// What a study found.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct Report {
-    /// Its cases.
-    pub rows: Vec<Row>,
-    /// Its pictures.
-    pub panels: Vec<Panel>,
-}
-
 /// How much is done.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Extent {
@@ -109,8 +100,13 @@ impl Extent {
     }
 }
 
-/// What is told of each case before it begins.
-pub type Progress<'a> = &'a mut dyn FnMut(&str);
+/// Follows a study.
+pub trait Observe {
+    /// A case begins.
+    fn begins(&mut self, case: &str);
+    /// A case has ended.
+    fn ended(&mut self, row: Row);
+}
 
 /// A study.
 #[derive(Clone, Copy, Debug)]
@@ -119,13 +115,13 @@ pub struct Study {
     pub name: &'static str,
     /// What it does.
     pub title: &'static str,
-    study: fn(Extent, Progress<'_>) -> Report,
+    study: fn(Extent, &mut dyn Observe) -> Vec<Panel>,
 }
 
 impl Study {
-    /// Makes the study; `progress` is told of each case before it begins.
-    pub fn run(&self, extent: Extent, progress: Progress<'_>) -> Report {
-        (self.study)(extent, progress)
+    /// Makes the study and draws what it saw; `observer` is told of each case.
+    pub fn run(&self, extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
+        (self.study)(extent, observer)
     }
 }
 
@@ -249,18 +245,31 @@ fn name(error: &Error) -> &'static str {
 mod tests {
     use super::*;
 
+    #[derive(Default)]
+    struct Seen {
+        begun: usize,
+        rows: Vec<Row>,
+    }
+
+    impl Observe for Seen {
+        fn begins(&mut self, _case: &str) {
+            self.begun += 1;
+        }
+
+        fn ended(&mut self, row: Row) {
+            self.rows.push(row);
+        }
+    }
+
     #[test]
     fn nothing_is_wrong_in_silence() {
         let mut wrong = Vec::new();
         for study in STUDIES {
-            let report = study.run(Extent::Brief, &mut |_| {});
-            assert!(report.rows.len() > 1, "{}", study.name);
-            wrong.extend(
-                report
-                    .rows
-                    .into_iter()
-                    .filter(|row| row.verdict == Verdict::Wrong),
-            );
+            let mut seen = Seen::default();
+            study.run(Extent::Brief, &mut seen);
+            assert!(seen.begun > 1 && seen.rows.len() > 1, "{}", study.name);
+            let rows = seen.rows.into_iter();
+            wrong.extend(rows.filter(|row| row.verdict == Verdict::Wrong));
         }
         assert!(wrong.is_empty(), "{wrong:#?}");
     }

@@ -5,8 +5,9 @@
 //! underflow.
 
 use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
-use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::entry::Entry;
+use crate::picture::Panel;
 use crate::problem::{OutputTimes, Problem, Run, Sink};
 use dmm_runtime::Error;
 
@@ -36,20 +37,19 @@ const CASES: [Case; 2] = [
     },
 ];
 
-pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
+pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let stride = extent.of(5, 25);
-    let mut report = Report::default();
     for case in CASES {
         for setting in SETTINGS {
-            progress(&format!(
+            observer.begins(&format!(
                 "{}, {}",
                 (case.problem)().card().name,
                 setting.name
             ));
-            report.rows.push(row(&case, &setting, stride));
+            observer.ended(row(&case, &setting, stride));
         }
     }
-    report
+    Vec::new()
 }
 
 fn row(case: &Case, setting: &Setting, stride: usize) -> Row {

@@ -1,7 +1,7 @@
 //! Step sizes from the limit of stability to 10⁻⁹: as long as a step has a solution, ψ keeps
 //! its level; when it has none any more, that is said.
 
-use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict, name};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, name};
 use crate::conservation::{Conservation, measure};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::Run;
@@ -13,9 +13,9 @@ use dmm_runtime::Error;
 const BOUND: f64 = 16.0;
 const PROBLEMS: [&str; 4] = ["harmonic", "elliptic", "pendulum", "henon_heiles"];
 
-pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
+pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let steps = extent.of(1_000_000.0, 2_000.0);
-    let mut report = Report::default();
+    let mut panels = Vec::new();
     for setting in SETTINGS {
         if !setting.has_uniform_steps() {
             continue;
@@ -26,7 +26,7 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
             Axis::new("largest |ψ − ψ_ref| (ulp of ψ's terms)", Scale::Decades),
         );
         for (k, name) in PROBLEMS.into_iter().enumerate() {
-            progress(&format!("{name}, {}", setting.name));
+            observer.begins(&format!("{name}, {}", setting.name));
             let results: Vec<_> = step_sizes()
                 .map(|tau| (tau, run(name, &setting, tau, steps)))
                 .collect();
@@ -40,11 +40,11 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
                 Stroke::Marked,
                 COLOURS[k % COLOURS.len()],
             );
-            report.rows.push(summary(name, setting.name, &results));
+            observer.ended(summary(name, setting.name, &results));
         }
-        report.panels.push(panel);
+        panels.push(panel);
     }
-    report
+    panels
 }
 
 /// From far beyond what a step can do.

@@ -4,7 +4,7 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::ops::ControlFlow;
 
-use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::method::Control;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Run, Sink};
@@ -28,17 +28,16 @@ impl Sink for Crossings {
     }
 }
 
-pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
+pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let pairs = extent.of(100, 3);
     let largest = extent.of(8, 4);
-    let mut report = Report::default();
     let mut panel = Panel::new(
         "last crossing",
         Axis::new("ratio of the stiffnesses", Scale::Decades),
         Axis::new("relative error of its time", Scale::Decades),
     );
     for (k, setting) in SETTINGS.into_iter().enumerate() {
-        progress(setting.name);
+        observer.begins(setting.name);
         let mut curve = Vec::new();
         let mut worst = Row::new(
             format!("ratios up to 1e{largest}, {} crossings", 2 * pairs),
@@ -68,7 +67,7 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
                 "; time off by at most {largest_error:.2} of the bound"
             ));
         }
-        report.rows.push(worst);
+        observer.ended(worst);
         panel.curve(
             Some(setting.name.to_owned()),
             curve,
@@ -76,8 +75,7 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
             COLOURS[k % COLOURS.len()],
         );
     }
-    report.panels.push(panel);
-    report
+    vec![panel]
 }
 
 /// What the relative error of the last crossing's time may be.

@@ -12,7 +12,7 @@ use dmm_runtime::Error;
 use num_rational::BigRational;
 
 use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
-use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict, name};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, name};
 use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Run, Sink};
@@ -74,9 +74,8 @@ struct Tally {
     wrong: Vec<String>,
 }
 
-pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
+pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let per_decade = extent.of(10, 1);
-    let mut report = Report::default();
     let mut panel = Panel::new(
         "circle: crossing at the angle α",
         Axis::new("α", Scale::Decades),
@@ -85,7 +84,7 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
     for (kind, shown) in KINDS.iter().zip([true, false]) {
         for (k, setting) in SETTINGS.into_iter().enumerate() {
             let name = (kind.problem)().card().name;
-            progress(&format!("{name}, {}", setting.name));
+            observer.begins(&format!("{name}, {}", setting.name));
             let mut tally = Tally::default();
             let mut curve = Vec::new();
             for alpha in angles(per_decade) {
@@ -96,15 +95,14 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
                     }
                 }
             }
-            report.rows.push(tally.row(name, setting.name));
+            observer.ended(tally.row(name, setting.name));
             if shown {
                 let label = Some(setting.name.to_owned());
                 panel.curve(label, curve, Stroke::Marked, COLOURS[k % COLOURS.len()]);
             }
         }
     }
-    report.panels.push(panel);
-    report
+    vec![panel]
 }
 
 /// From 10⁻¹ down to 10⁻¹².

@@ -12,7 +12,7 @@ use num_traits::ToPrimitive;
 
 use super::growth::Growth;
 use super::systems::{WARPED, Warped};
-use super::{Extent, Progress, Report, Row, SETTINGS, Setting, Verdict};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Record, Run, Sink};
@@ -29,15 +29,15 @@ fn bound(transitions: f64) -> f64 {
 /// Where the state at a transition is pinned with its remainder.
 const PINNED: f64 = 1e-28;
 
-pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
+pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let transitions = extent.of(1_000_000, 500);
-    let mut report = Report::default();
+    let mut panels = Vec::new();
     let problems: [(&str, Box<dyn Problem>); 2] = [
         (
             "closed orbit",
             match find("elliptic") {
                 Ok(problem) => problem,
-                Err(_) => return report,
+                Err(_) => return panels,
             },
         ),
         ("open orbit", Entry::<Warped, 4>::boxed(&WARPED)),
@@ -49,9 +49,9 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
             Axis::new("largest |ψ_ref − exact level| so far", Scale::Decades),
         );
         for (k, setting) in SETTINGS.into_iter().enumerate() {
-            progress(&format!("{}, {}", problem.card().name, setting.name));
+            observer.begins(&format!("{}, {}", problem.card().name, setting.name));
             let (row, growth) = measure(&*problem, &setting, transitions);
-            report.rows.push(row);
+            observer.ended(row);
             let label = Some(setting.name.to_owned());
             panel.curve(
                 label,
@@ -60,11 +60,13 @@ pub(super) fn study(extent: Extent, progress: Progress<'_>) -> Report {
                 COLOURS[k % COLOURS.len()],
             );
         }
-        report.panels.push(panel);
+        panels.push(panel);
     }
-    progress("elliptic, with the remainder");
-    report.rows.extend(pinned(transitions));
-    report
+    observer.begins("elliptic, with the remainder");
+    for tolerance in [1e-3, 1e-12] {
+        observer.ended(pinned(tolerance, transitions));
+    }
+    panels
 }
 
 /// Levels at entries into regions.
@@ -171,33 +173,28 @@ impl Observer<EllipticRegion, 2> for Stop {
 
 /// The level of `elliptic` outside of the circle after an even number of transitions, evaluated
 /// exactly at the state with its remainder: it was 0 at the start.
-fn pinned(transitions: u64) -> Vec<Row> {
+fn pinned(tolerance: f64, transitions: u64) -> Row {
     let system = Elliptic::default();
-    let mut rows = Vec::new();
-    for tolerance in [1e-3, 1e-12] {
-        let what = format!("elliptic, state with remainder, {transitions} transitions");
-        let scheme = format!("Taylor {tolerance:e}");
-        let result = Integrator::new(&system, Taylor::tolerance(tolerance))
-            .initial(0.0, [-1.0, -1.0])
-            .observe_until(100.0 * transitions as f64, &mut Stop(transitions));
-        rows.push(match result {
-            Ok(end) => {
-                let rational = |value: f64| BigRational::from_float(value);
-                let exactly =
-                    |i: usize| Some(rational(end.point.x[i])? + rational(end.remainder[i])?);
-                let level = exactly(0).zip(exactly(1)).map(|(x, y)| {
-                    let a = BigRational::from_integer((system.a_outside as i64).into());
-                    &y * &y - &x * &x * &x - a * &x
-                });
-                let level = level
-                    .and_then(|level| level.to_f64())
-                    .unwrap_or(f64::NAN)
-                    .abs();
-                let finding = format!("level off by {level:.1e}");
-                Row::new(what, scheme, Verdict::within(level <= PINNED), finding)
-            }
-            Err(error) => Row::new(what, scheme, Verdict::Wrong, error.to_string()),
-        });
+    let what = format!("elliptic, state with remainder, {transitions} transitions");
+    let scheme = format!("Taylor {tolerance:e}");
+    let result = Integrator::new(&system, Taylor::tolerance(tolerance))
+        .initial(0.0, [-1.0, -1.0])
+        .observe_until(100.0 * transitions as f64, &mut Stop(transitions));
+    match result {
+        Ok(end) => {
+            let rational = |value: f64| BigRational::from_float(value);
+            let exactly = |i: usize| Some(rational(end.point.x[i])? + rational(end.remainder[i])?);
+            let level = exactly(0).zip(exactly(1)).map(|(x, y)| {
+                let a = BigRational::from_integer((system.a_outside as i64).into());
+                &y * &y - &x * &x * &x - a * &x
+            });
+            let level = level
+                .and_then(|level| level.to_f64())
+                .unwrap_or(f64::NAN)
+                .abs();
+            let finding = format!("level off by {level:.1e}");
+            Row::new(what, scheme, Verdict::within(level <= PINNED), finding)
+        }
+        Err(error) => Row::new(what, scheme, Verdict::Wrong, error.to_string()),
     }
-    rows
 }

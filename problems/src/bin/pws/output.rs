@@ -45,12 +45,16 @@ impl Csv {
             .map_err(|error| Failure::write(&self.path, io::Error::from(error)))
     }
 
+    /// Sees to it that all rows so far are in the file.
+    pub(crate) fn flush(&mut self) -> Result<(), Failure> {
+        let flushed = self.writer.flush();
+        flushed.map_err(|error| Failure::write(&self.path, error))
+    }
+
     /// Adds what is left to the file.
     pub(crate) fn finish(mut self) -> Result<PathBuf, Failure> {
-        match self.writer.flush() {
-            Ok(()) => Ok(self.path),
-            Err(error) => Err(Failure::write(&self.path, error)),
-        }
+        self.flush()?;
+        Ok(self.path)
     }
 }
 
