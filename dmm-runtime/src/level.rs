@@ -12,6 +12,8 @@
 //! several quantities each is damped in the direction that it adds to those before it, and the rows
 //! that count are those that [`MinimalNorm`] keeps in the discrete vector field.
 
+use std::ops::Range;
+
 use crate::linear::dot;
 use crate::minimal_norm::MinimalNorm;
 use crate::scalar::Scalar;
@@ -31,12 +33,15 @@ pub(crate) struct Level<const N: usize, const M: usize> {
 }
 
 /// The sizes of components next to a point: wᵢ² = xᵢ² + dᵢ² of the state and the step that led to
-/// it, relative to the largest of them.
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Weights<const N: usize> {
     squares: Vector<f64, N>,
-    /// The largest square.
+    /// The largest of them.
     largest: f64,
+    /// What they are multiples of: 1 unless they are so small or so large that the products they
+    /// enter could leave the range of doubles.
+    unit: f64,
 }
 
 impl<const N: usize> Weights<N> {
@@ -45,9 +50,18 @@ impl<const N: usize> Weights<N> {
     pub(crate) fn new(x: &Vector<f64, N>, displacement: &Vector<f64, N>) -> Self {
         let squares = x.zip_map(displacement, |x, d| d.fused(d, x * x));
         let largest = squares.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        // nothing waits for a division that is not made
+        if USUAL.contains(&largest) {
+            return Self {
+                squares,
+                largest,
+                unit: 1.0,
+            };
+        }
         Self {
             squares: squares * (1.0 / largest),
-            largest,
+            largest: 1.0,
+            unit: largest,
         }
     }
 
@@ -72,7 +86,7 @@ impl<const N: usize> Weights<N> {
     #[inline(always)]
     fn are_left_by(&self, displacement: &Vector<f64, N>) -> bool {
         let far = |i: usize| {
-            let bound = COARSE * COARSE * self.largest * self.squares[i];
+            let bound = COARSE * COARSE * self.unit * self.squares[i];
             displacement[i] * displacement[i] > bound
         };
         (0..N).fold(false, |any, i| any | far(i))
@@ -123,7 +137,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
             return Vector::zeros();
         }
         let (psi, multiplier) = flow.multiplier(time.value, &state.x);
-        let little = self.scale * (Self::LITTLE * Self::LITTLE);
+        let little = self.scale * (Self::LITTLE * Self::LITTLE * weights.largest);
         if M == 1 {
             let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
             let weighted = weights.times(&row);
@@ -180,7 +194,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         residual: &Vector<f64, M>,
         weights: &Weights<N>,
     ) -> Vector<f64, N> {
-        let damping = self.scale * (Self::NONE * Self::NONE);
+        let damping = self.scale * (Self::NONE * Self::NONE * weights.largest);
         if M == 1 {
             let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
             let weighted = weights.times(&row);
@@ -250,7 +264,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
         let weighted = weights.times(&row);
         let square = dot(&row, &weighted);
-        if square <= self.scale[0] * (Self::LITTLE * Self::LITTLE) {
+        if square <= self.scale[0] * (Self::LITTLE * Self::LITTLE * weights.largest) {
             return None;
         }
         let gain = weighted * (1.0 / square);
@@ -264,7 +278,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         };
         let first = residual(psi, state);
         let mut reached = without(*state, first);
-        let coarse = square * (weights.largest * (COARSE * COARSE));
+        let coarse = square * (weights.unit * (COARSE * COARSE));
         if first * first > coarse {
             let second = residual(flow.conserved(time.value, &reached.x), &reached);
             reached = without(reached, second);
@@ -299,6 +313,10 @@ impl<const N: usize, const M: usize> Level<N, M> {
         state
     }
 }
+
+/// Where squares of sizes and the products that they enter are far from the ends of the range of
+/// doubles.
+const USUAL: Range<f64> = 1e-20..1e20;
 
 /// The error of second order of a displacement by this part of the state is more than a rounding
 /// error.

@@ -57,10 +57,17 @@ impl<const N: usize> Propagator<N> {
     pub(super) fn increment(&self, x0: &Vector<f64, N>) -> Vector<f64, N> {
         match &self.offset {
             None => self.linear * x0,
-            Some(offset) => self.linear * x0 + offset,
+            Some(offset) => {
+                rarely();
+                self.linear * x0 + offset
+            }
         }
     }
 }
+
+/// Marks a branch as one that is not to be computed where the other is taken.
+#[cold]
+fn rarely() {}
 
 /// The increment by a propagator, which there is unless I − τA is singular.
 #[inline]

@@ -71,13 +71,14 @@ impl Watch {
         !(lowest > reach)
     }
 
-    /// Moves on to a step that starts at g = `value`.
+    /// Moves on to a step that starts at g = `value`, after one that ended `near` the interface or
+    /// not.
     #[inline]
-    pub(crate) fn advance(&mut self, value: f64) {
+    pub(crate) fn advance(&mut self, value: f64, near: bool) {
         self.change = (value - self.value).abs();
         self.value = value;
-        // rounding may have left the point on the wrong side
-        self.fresh &= value <= 0.0;
+        // rounding may have left the point on the wrong side; away from it g is positive
+        self.fresh = near && self.fresh && value <= 0.0;
     }
 
     /// Looks closely at a step over `crossing.upper` from its state.

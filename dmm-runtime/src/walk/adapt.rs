@@ -77,7 +77,7 @@ where
             level.rescale(flow, time.value, &self.state);
             self.accept(flow, &level, &increment, tau, time)?;
             let values = readings::<N, M, F>(flow, time.value, &self.state.x);
-            advance(&mut watches, &values);
+            advance(&mut watches, &values, true);
             if self.tell_point().is_break() {
                 return Ok(SegmentEnd::Stopped);
             }

@@ -63,11 +63,12 @@ pub(super) fn is_near(watches: &impl AsRef<[Watch]>, readings: &impl AsRef<[f64]
     near
 }
 
-/// Moves the watches on to a step that starts with these readings.
+/// Moves the watches on to a step that starts with these readings, after one that ended `near` an
+/// interface or not.
 #[inline]
-pub(super) fn advance(watches: &mut impl AsMut<[Watch]>, readings: &impl AsRef<[f64]>) {
+pub(super) fn advance(watches: &mut impl AsMut<[Watch]>, readings: &impl AsRef<[f64]>, near: bool) {
     for (watch, &value) in watches.as_mut().iter_mut().zip(readings.as_ref()) {
-        watch.advance(value);
+        watch.advance(value, near);
     }
 }
 

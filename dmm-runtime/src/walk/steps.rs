@@ -8,7 +8,7 @@ use crate::scheme::{Maps, OneStep, Step};
 use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{Flow, System, Vector};
-use crate::time::Time;
+use crate::time::{Grid, Time};
 use crate::transition::Locator;
 use crate::walk::interfaces::{Watches, advance, is_near, readings, watches};
 use crate::walk::{SegmentEnd, Walk};
@@ -64,48 +64,60 @@ where
             if node >= grid.count {
                 break Ok(None);
             }
-            let (t0, t1) = (grid.inner_value(node - 1), grid.inner_value(node));
-            // telescoping sums need the very times that ψ(t, x) is evaluated at
-            let tau = if F::AUTONOMOUS {
-                grid.step_size
-            } else {
-                t1 - t0
+            // up to the next correction; apart from what is seldom done, so that what steps work
+            // with stays in registers
+            let mask = Sch::correction_interval(&memory) - 1;
+            let due = (node + mask) & !mask;
+            let last = due.min(grid.count - 1);
+            let stride = loop {
+                let (t0, t1) = (grid.inner_value(node - 1), grid.inner_value(node));
+                // telescoping sums need the very times that ψ(t, x) is evaluated at
+                let tau = match F::AUTONOMOUS {
+                    true => grid.step_size,
+                    false => t1 - t0,
+                };
+                let step = Step {
+                    flow,
+                    t0,
+                    x0: &state.x,
+                    tau,
+                };
+                let increment = match self.scheme.full_step(&step, &mut memory, &mut counts) {
+                    Ok(increment) => increment,
+                    Err(failure) => break Err(failure),
+                };
+                let next = state.after(&increment);
+                let values = readings::<N, M, F>(flow, t1, &next.x);
+                let pauses = || self.observer.next_output().is_some_and(|t| t <= t1);
+                let near = is_near(&watching, &values);
+                if near || Obs::LISTENS || node == last || pauses() {
+                    break Ok((tau, increment, next, values, near));
+                }
+                advance(&mut watching, &values, false);
+                state = next;
+                node += 1;
             };
-            let step = Step {
-                flow,
-                t0,
-                x0: &state.x,
-                tau,
-            };
-            let increment = match self.scheme.full_step(&step, &mut memory, &mut counts) {
-                Ok(increment) => increment,
+            let (tau, increment, mut next, mut values, near) = match stride {
+                Ok(stride) => stride,
                 Err(failure) => break Err(failure),
             };
-            let mut next = state.after(&increment);
-            let corrects = node & (Sch::correction_interval(&memory) - 1) == 0;
-            let checks = Obs::LISTENS || corrects;
-            if checks && !is_finite(&next.x) {
+            let corrects = node == due;
+            if (Obs::LISTENS || corrects) && !is_finite(&next.x) {
                 (state, node) = if Obs::LISTENS { (state, node) } else { finite };
                 break Err(StepFailure::NotFinite);
             }
-            let mut values = readings::<N, M, F>(flow, t1, &next.x);
-            let near = is_near(&watching, &values);
+            let t1 = grid.inner_value(node);
             if near || self.observer.next_output().is_some_and(|t| t <= t1) {
                 self.settle::<M, F>(state, node, &mut counts);
                 *watches = watching;
-                // a copy is lent, so that the loop's own stays in registers
-                let lent = increment;
-                if near && let Some(end) = self.look(flow, level, watches, tau, &lent)? {
+                if near && let Some(end) = self.look(flow, level, watches, tau, &increment)? {
                     return Ok(Some(end));
                 }
                 self.outputs(flow, tau, self.node_time::<M, F>(node))?;
             }
             if corrects {
                 next = match corrects_level {
-                    true => {
-                        let rescales = node.is_multiple_of(RESCALING);
-                        on_level(flow, level, (next, increment), t1, rescales)
-                    }
+                    true => on_level(flow, level, (state, increment), (grid, node)),
                     false => next.normalised(),
                 };
                 // ψ may leave the range of doubles where the state does not
@@ -115,10 +127,9 @@ where
                 finite = (next, node + 1);
                 values = readings::<N, M, F>(flow, t1, &next.x);
             }
-            advance(&mut watching, &values);
+            advance(&mut watching, &values, near);
             state = next;
             node += 1;
-            counts.steps += 1;
             let point = Point {
                 t: t1,
                 time: Time::new(t1),
@@ -164,7 +175,7 @@ where
             self.outputs(flow, tau, end)?;
             self.accept(flow, level, &increment, tau, end)?;
             let values = readings::<N, M, F>(flow, end.value, &self.state.x);
-            advance(watches, &values);
+            advance(watches, &values, true);
             if self.tell_point().is_break() {
                 return Ok(Some(SegmentEnd::Stopped));
             }
@@ -184,6 +195,7 @@ where
         counts: &mut Statistics,
     ) {
         self.state = state;
+        self.statistics.steps += node - self.progress.node;
         self.progress.node = node;
         self.time = self.node_time::<M, F>(node - 1);
         self.statistics += std::mem::take(counts);
@@ -269,17 +281,17 @@ where
     }
 }
 
-/// A state that an increment led to, put back on its level.
+/// The state after an increment, put back on its level.
 #[inline(never)]
 fn on_level<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     flow: &F,
     level: &mut Level<N, M>,
     (state, increment): (State<N>, Vector<f64, N>),
-    t: f64,
-    rescales: bool,
+    (grid, node): (Grid, u64),
 ) -> State<N> {
-    let mut state = state.normalised();
-    if rescales {
+    let t = grid.inner_value(node);
+    let mut state = state.after(&increment).normalised();
+    if node.is_multiple_of(RESCALING) {
         level.rescale(flow, t, &state);
     }
     // into x at once: left in the remainder, which the flow does not turn, it would later be
