@@ -234,6 +234,8 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
 pub trait Boundary<S: Scalar, const N: usize>: Clone {
     /// The indices of the interfaces that bound the region, with its side.
     const SIDES: &'static [(usize, Side)];
+    /// Whether no g depends on the time.
+    const AUTONOMOUS: bool;
     /// Whether every g is affine in t and x: ∂ₜg and ∇g depend on parameters alone.
     const AFFINE: bool = false;
 
@@ -285,6 +287,7 @@ pub struct Unbounded;
 
 impl<S: Scalar, const N: usize> Boundary<S, N> for Unbounded {
     const SIDES: &'static [(usize, Side)] = &[];
+    const AUTONOMOUS: bool = true;
     const AFFINE: bool = true;
 
     type Each<T: Copy> = [T; 0];

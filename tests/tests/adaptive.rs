@@ -28,17 +28,6 @@ pws! {
     }
 }
 
-pws! {
-    /// A mass on a spring whose force grows with the third power: s times as large, it moves s
-    /// times as fast.
-    pub system Quartic {
-        state q, p;
-        der(q) = p;
-        der(p) = -q^3;
-        conserved energy = p^2 / 2 + q^4 / 4;
-    }
-}
-
 /// Eccentricity 0.9, at the far end.
 const PLANET: [f64; 4] = [1.9, 0.0, 0.0, 0.229_415_733_870_561_77];
 
@@ -158,52 +147,6 @@ fn a_singularity_ends_in_a_typed_error() {
         assert!((end.point.t - 1.0).abs() < 0.01, "{}", end.point.t);
         assert!(end.statistics.rejected > 0 && end.statistics.steps < 100_000);
     }
-}
-
-/// The state at t = 2 of an orbit 2^`exponent` times as large, divided by its scale.
-fn scaled(scheme: impl Scheme, exponent: i32) -> Vector<f64, 2> {
-    let scale = f64::from(exponent).exp2();
-    let initial = [0.25 * scale, 0.75 * scale * scale];
-    let found = end(&Quartic {}, scheme, initial, 2.0 / scale);
-    assert!(found.statistics.steps < 10_000, "{exponent}");
-    let x = found.point.x;
-    Vector::from([x[0] / scale, x[1] / (scale * scale)])
-}
-
-#[test]
-fn the_unit_of_time_does_not_matter() {
-    // there the higher coefficients of the solution underflow, or overflow
-    for exponent in [-232, -216, -200, 100, 200] {
-        let distance = |scheme: fn(i32) -> Vector<f64, 2>| (scheme(exponent) - scheme(0)).norm();
-        let symmetric = distance(|exponent| scaled(Symmetric::tolerance(1e-5), exponent));
-        let composed = distance(|exponent| scaled(Composed::<8>::tolerance(1e-9), exponent));
-        let taylor = distance(|exponent| scaled(Taylor::tolerance(1e-3), exponent));
-        assert!(symmetric < 1e-2, "{exponent}: {symmetric:e}");
-        assert!(composed < 1e-5, "{exponent}: {composed:e}");
-        assert!(taylor < 3e-2, "{exponent}: {taylor:e}");
-    }
-}
-
-/// Halted where the state is still finite.
-fn halts(scheme: impl Scheme, initial: [f64; 2], t_end: f64) {
-    let halted = Integrator::new(&Quartic {}, scheme)
-        .initial(0.0, initial)
-        .observe_until(t_end, &mut ())
-        .unwrap_err();
-    assert!(matches!(halted.error(), Error::LeftDomain { .. }));
-    let end = halted.end().unwrap();
-    assert!(end.point.x.iter().all(|x| x.is_finite()), "{end:?}");
-}
-
-#[test]
-fn a_level_beyond_the_range_of_doubles_is_told() {
-    // p² overflows, q and p do not
-    let scale = 266f64.exp2();
-    let (initial, t_end) = ([0.25 * scale, 0.75 * scale * scale], 2.0 / scale);
-    halts(Symmetric::tolerance(1e-5), initial, t_end);
-    halts(Composed::<8>::tolerance(1e-9), initial, t_end);
-    halts(Symmetric::step_size(1e-3 / scale), initial, t_end);
-    halts(Composed::<4>::step_size(1e-3 / scale), initial, t_end);
 }
 
 #[test]

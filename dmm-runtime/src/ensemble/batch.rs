@@ -309,7 +309,9 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         let end = self.settings.end;
         let trajectory = &mut self.trajectories[number];
         let until = trajectory.time.value + trajectory.tau;
-        let until = match until > trajectory.time.value && until < end {
+        // lanes have no unit of time but 1
+        let returns = trajectory.progress.unit == 1.0;
+        let until = match returns && until > trajectory.time.value && until < end {
             true => until,
             false => end,
         };

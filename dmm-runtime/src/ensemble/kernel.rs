@@ -7,7 +7,7 @@ use super::level::Place;
 use super::register::{Register, WIDTH, Wide};
 use crate::lanes::Mask;
 use crate::scalar::Scalar;
-use crate::series::jet::{expand, first_switching};
+use crate::series::jet::{FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE, expand, first_switching};
 use crate::series::polynomial::increment;
 use crate::system::{Boundary, Flow, FlowVisitor, Vector};
 use crate::time::two_sum;
@@ -175,12 +175,13 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     #[inline(always)]
     fn expand(&mut self) {
         let Register { t, x, .. } = &*self.register;
-        expand(self.flow, *t, x, self.series, COEFFICIENTS);
+        expand(self.flow, (*t, x), self.series, COEFFICIENTS, 1.0);
     }
 
-    /// The steps that the tolerance allows; see [`crate::series::jet::Jet::step`].
+    /// The steps that the tolerance allows, and where coefficients may have left the range of
+    /// doubles; see [`crate::series::jet::Jet::step`].
     #[inline(always)]
-    fn wanted(&self, enters: bool) -> Wide {
+    fn wanted(&self, enters: bool) -> (Wide, Mask<WIDTH>) {
         let zero = Wide::from_f64(0.0);
         let (mut last, mut second) = (zero, zero);
         let series = &self.series.as_ref()[..N];
@@ -201,7 +202,14 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             second = second.max(c[ORDER - 1].abs() * scale);
         }
         let radius = inverse_root(last, ORDER).min(inverse_root(second, ORDER - 1));
-        Wide::from_f64(self.settings.fraction) * radius
+        let n = Wide::from_f64;
+        // what is lost to underflow counts only in a time of powers as large
+        let remaining = n(self.settings.end) - self.register.t;
+        let lost = n(SMALLEST_DECISIVE)
+            .above(last)
+            .and(remaining.above(n(FASTEST)));
+        let is_lost = n(LARGEST_DECISIVE).above(last).not().or(lost);
+        (n(self.settings.fraction) * radius, is_lost)
     }
 
     /// Σ xⱼ hʲ over j ≥ 1.
@@ -255,7 +263,8 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     fn step(&mut self, entry: &Entry) -> bool {
         let n = Wide::from_f64;
         let (start, start_remainder) = (self.register.t, self.register.t_remainder);
-        let wanted = self.wanted(entry.enters).settled();
+        let (wanted, is_lost) = self.wanted(entry.enters);
+        let wanted = wanted.settled();
         let mut size = wanted;
         let mut halvings = 0;
         let (tau, last, mut place, ahead) = loop {
@@ -279,6 +288,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             .and(place.t_remainder.equals(start_remainder));
         let moves = tau.above(n(0.0)).and(stands.not());
         let mut hard = ahead.hard.or(is_finite(&place).not()).or(moves.not());
+        hard = hard.or(is_lost);
         if let Some(barred) = entry.barred {
             hard = hard.or(barred);
         }
@@ -307,7 +317,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         }
         let field = self.flow.vector_field(place.t, &place.x);
         let (t, solution) = (self.register.t, self.series.as_ref());
-        let first = first_switching::<_, F, N, M, COEFFICIENTS>(self.flow, t, solution);
+        let first = first_switching::<_, F, N, M, COEFFICIENTS>(self.flow, t, solution, 1.0);
         for &(interface, side) in Self::sides() {
             let sign = Wide::from_f64(side.sign());
             let series = first.as_ref()[interface].map(|c| sign * c);

@@ -6,8 +6,12 @@
 //! p + 1, so that it does not vanish with one coefficient:
 //!
 //! τ⁻² = (‖c_p‖^{2/p} + ‖c_{p+1}‖^{2/(p+1)})/2 · tol^{−2/(p+1)}.
+//!
+//! Where coefficients leave the range of doubles, they are taken in another unit of time; see
+//! [`crate::series::jet`].
 
-use crate::series::jet::{LARGEST, SMALLEST, is_polynomial};
+use crate::series::InUnits;
+use crate::series::jet::{LARGEST, SMALLEST, is_polynomial, unit_for};
 use crate::system::{Flow, Vector};
 
 /// Coefficients: enough for order 8.
@@ -21,6 +25,16 @@ pub(crate) struct Pacer<const N: usize> {
     factor: f64,
     /// The largest size of each component so far.
     size: Vector<f64, N>,
+    /// The unit of time of the coefficients.
+    unit: f64,
+}
+
+/// What the coefficients at a point say.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    rate: f64,
+    /// Whether some were lost to underflow or to overflow.
+    is_lost: bool,
 }
 
 impl<const N: usize> Pacer<N> {
@@ -30,6 +44,7 @@ impl<const N: usize> Pacer<N> {
             order,
             factor: tolerance.powf(-1.0 / (order + 1) as f64),
             size: Vector::zeros(),
+            unit: 1.0,
         }
     }
 
@@ -40,35 +55,55 @@ impl<const N: usize> Pacer<N> {
         t: f64,
         x: &Vector<f64, N>,
     ) -> f64 {
+        /// Each brings the unit nearer to the solution's by the powers of a few coefficients.
+        const MOST_UNITS: u32 = 8;
+        let mut pace = self.in_units(flow, t, x);
+        for _ in 0..MOST_UNITS {
+            let unit = unit_for(self.unit / pace.rate);
+            if !pace.is_lost || unit == self.unit {
+                break;
+            }
+            self.unit = unit;
+            pace = self.in_units(flow, t, x);
+        }
+        pace.rate / self.unit * self.factor
+    }
+
+    /// The same in the unit of time, but for the tolerance.
+    fn in_units<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        t: f64,
+        x: &Vector<f64, N>,
+    ) -> Pace {
         let p = self.order;
         let mut series = F::series::<COEFFICIENTS>();
         for (component, &x) in series.as_mut().iter_mut().zip(x) {
             component[0] = x;
         }
-        for k in 0..=p {
-            flow.advance(k, t, &mut series);
+        let unit = self.unit;
+        for order in 0..=p {
+            flow.advance(InUnits { order, unit }, t, &mut series);
         }
         let c = &series.as_ref()[..N];
         self.grow(c);
-        let rate = |k: usize| self.root(c, k);
+        let square = |k: usize| self.root(c, k, 2.0);
         let in_range = |&k: &usize| (SMALLEST..LARGEST).contains(&self.largest(c, k));
         // of a polynomial
         let ends = |k: usize| {
             let (last, next) = (self.largest(c, k), self.largest(c, k + 1));
             next == 0.0 && is_polynomial(k, last, self.smallest())
         };
-        let square = match (1..=p + 1).rev().find(in_range) {
-            Some(k) if k > p => 0.5 * (rate(p) + rate(p + 1)),
-            Some(k) if ends(k) => match k == p {
-                true => 0.5 * rate(p),
-                false => 0.0,
-            },
+        let (rate, is_lost) = match (1..=p + 1).rev().find(in_range) {
+            Some(k) if k > p => ((0.5 * (square(p) + square(p + 1))).sqrt(), false),
+            Some(k) if ends(k) && k == p => ((0.5 * square(p)).sqrt(), false),
+            Some(k) if ends(k) => (0.0, false),
             // the highest order that is neither lost to underflow nor to overflow
-            Some(k) => rate(k),
-            None if (1..=p + 1).all(|k| self.largest(c, k) == 0.0) => 0.0,
-            None => f64::NAN,
+            Some(k) => (self.root(c, k, 1.0), true),
+            None if (1..=p + 1).all(|k| self.largest(c, k) == 0.0) => (0.0, false),
+            None => (f64::NAN, false),
         };
-        square.sqrt() * self.factor
+        Pace { rate, is_lost }
     }
 
     /// The largest |cₖ| relative to the size of its component.
@@ -90,8 +125,8 @@ impl<const N: usize> Pacer<N> {
         sizes.fold(f64::INFINITY, |smallest, &size| smallest.min(size))
     }
 
-    /// ‖cₖ‖^{2/k}
-    fn root(&self, c: &[[f64; COEFFICIENTS]], k: usize) -> f64 {
+    /// ‖cₖ‖^{power/k}
+    fn root(&self, c: &[[f64; COEFFICIENTS]], k: usize, power: f64) -> f64 {
         let largest = self.largest(c, k);
         if largest == 0.0 {
             return 0.0;
@@ -101,7 +136,7 @@ impl<const N: usize> Pacer<N> {
             .zip(&self.size)
             .map(|(c, size)| c[k] / size / largest);
         let square: f64 = parts.map(|part| part * part).sum();
-        (largest * square.sqrt()).powf(2.0 / k as f64)
+        (largest * square.sqrt()).powf(power / k as f64)
     }
 
     /// Lets sizes grow with the components; one that begins at zero is as large as its slope

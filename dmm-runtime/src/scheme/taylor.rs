@@ -121,6 +121,8 @@ pub struct Progress {
     pub(crate) decay: Decay,
     /// The size of the step before, or 0.
     pub(crate) step: f64,
+    /// The unit of time of the coefficients.
+    pub(crate) unit: f64,
     pub(crate) window: Window,
 }
 
@@ -151,6 +153,8 @@ struct Reach<'a, F, const N: usize, const M: usize> {
     flow: &'a F,
     from: (f64, Vector<f64, N>),
     to: f64,
+    /// The unit of time of the coefficients.
+    unit: f64,
 }
 
 impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, F, N, M> {
@@ -162,15 +166,17 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, F,
             flow,
             from: (t0, x0),
             to,
+            unit,
         } = self;
         let mut time = Time::new(t0);
         let mut state = State::new(x0);
         let level = Level::enter(flow, time, &state);
-        let mut jet = Jet::<F, N, M, P>::new(scheme.order());
+        let mut jet = Jet::<F, N, M, P>::new(scheme.order(), unit);
         let mut before = 0.0;
         while time.value < to {
             jet.expand(flow, time.value, &state.x);
-            let wanted = jet.step(scheme.fraction(), before);
+            let from = (time.value, &state.x);
+            let wanted = jet.step(flow, from, scheme.fraction(), before);
             let end = time.value + wanted;
             let next = Time::new(if end < to { end } else { to });
             let increment = jet.increment(next.since(time));
@@ -208,6 +214,7 @@ impl Drive for Taylor {
             decay: Decay::new(self.fraction()),
             finest: self.finest(),
             step: 0.0,
+            unit: 1.0,
             window: Window::new(t0),
         }
     }
@@ -234,7 +241,7 @@ impl Drive for Taylor {
 
     fn reach<F, const N: usize, const M: usize>(
         &self,
-        _progress: &Progress,
+        progress: &Progress,
         flow: &F,
         from: (f64, Vector<f64, N>),
         to: f64,
@@ -247,6 +254,7 @@ impl Drive for Taylor {
             flow,
             from,
             to,
+            unit: progress.unit,
         };
         F::Unrolled::choose(self.order(), reach)
     }

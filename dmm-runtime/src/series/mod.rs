@@ -22,6 +22,12 @@ use crate::scalar::Scalar;
 pub trait Order: Copy {
     /// k
     fn get(self) -> usize;
+
+    /// The unit of time σ: the coefficients are those of (h/σ)ᵏ.
+    #[inline(always)]
+    fn unit(self) -> f64 {
+        1.0
+    }
 }
 
 /// An order known at compile time.
@@ -35,10 +41,22 @@ impl<const K: usize> Order for Fixed<K> {
     }
 }
 
-impl Order for usize {
+/// An order known at run time, of coefficients in any unit of time.
+#[derive(Clone, Copy, Debug)]
+pub struct InUnits {
+    pub(crate) order: usize,
+    pub(crate) unit: f64,
+}
+
+impl Order for InUnits {
     #[inline(always)]
     fn get(self) -> usize {
-        self
+        self.order
+    }
+
+    #[inline(always)]
+    fn unit(self) -> f64 {
+        self.unit
     }
 }
 
@@ -62,16 +80,16 @@ fn inverse<S: Scalar>(k: usize) -> S {
     S::from_f64(INVERSE[k])
 }
 
-/// 1/(k + 1): what turns a coefficient of ẋ into the next one of x.
+/// σ/(k + 1): what turns a coefficient of ẋ into the next one of x.
 #[inline(always)]
 pub fn step<S: Scalar, K: Order>(k: K) -> S {
-    inverse(k.get() + 1)
+    S::from_f64(k.unit() * INVERSE[k.get() + 1])
 }
 
-/// 1/(k + 2): the same for the coefficient after that, if there is one.
+/// σ/(k + 2): the same for the coefficient after that, if there is one.
 #[inline(always)]
 pub fn next_step<S: Scalar, K: Order>(k: K) -> S {
-    inverse(k.get() + 2)
+    S::from_f64(k.unit() * INVERSE[k.get() + 2])
 }
 
 /// u·s, for coefficient k of a component.
@@ -105,7 +123,7 @@ pub fn constant<S: Scalar, K: Order>(k: K, c: S) -> S {
 pub fn time<S: Scalar, K: Order>(k: K, t: S) -> S {
     match k.get() {
         0 => t,
-        1 => S::from_f64(1.0),
+        1 => S::from_f64(k.unit()),
         _ => S::from_f64(0.0),
     }
 }

@@ -4,6 +4,12 @@ use super::*;
 
 const P: usize = 23;
 
+impl Order for usize {
+    fn get(self) -> usize {
+        self
+    }
+}
+
 /// A series with coefficients like those of a function with the radius of convergence 2.
 fn sample(seed: u64) -> [f64; P] {
     let mut state = seed;

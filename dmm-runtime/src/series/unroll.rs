@@ -1,11 +1,14 @@
 //! One order after the other: as straight-line code, or in a loop.
 
-use super::{MOST_COEFFICIENTS, Order};
+use super::{InUnits, MOST_COEFFICIENTS, Order};
 
 /// Something whose series advance by one order at a time.
 pub trait Coefficients {
     /// Computes the coefficients of order `k`, from those below.
     fn advance<K: Order>(&mut self, k: K);
+
+    /// Their unit of time.
+    fn unit(&self) -> f64;
 }
 
 /// Something to be done with series of P coefficients.
@@ -26,7 +29,7 @@ pub trait Unroll {
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output;
 
     /// Advances through the orders k with FROM ≤ k and k + LESS < TO; `end` takes the place of
-    /// TO where it is lower.
+    /// TO where it is lower. Straight-line code is for the unit of time 1 only.
     fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
         series: &mut C,
         end: usize,
@@ -50,8 +53,9 @@ impl Unroll for Rolled {
         series: &mut C,
         end: usize,
     ) {
-        for k in FROM..end.min(TO) - LESS {
-            series.advance(k);
+        let unit = series.unit();
+        for order in FROM..end.min(TO) - LESS {
+            series.advance(InUnits { order, unit });
         }
     }
 }

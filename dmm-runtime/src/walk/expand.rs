@@ -33,7 +33,7 @@ where
         flow: &F,
     ) -> Result<SegmentEnd, Error> {
         let mut here = Here::of(self);
-        let mut jet = Jet::<F, N, M, P>::new(self.scheme.order());
+        let mut jet = Jet::<F, N, M, P>::new(self.scheme.order(), self.progress.unit);
         jet.expand(flow, here.time.value, &here.state.x);
         // after the chain of recurrences, which leaves the processor time for it
         let level = Level::enter(flow, here.time, &here.state);
@@ -41,6 +41,7 @@ where
         self.time = here.time;
         self.state = here.state;
         self.progress.step = here.before;
+        self.progress.unit = jet.unit();
         self.statistics.steps += here.steps;
         match end {
             Ended::At(end) => Ok(end),
@@ -69,7 +70,8 @@ where
             if remaining <= 0.0 {
                 return Ended::At(SegmentEnd::Finished);
             }
-            let wanted = jet.step(fraction, here.before);
+            let from = (here.time.value, &here.state.x);
+            let wanted = jet.step(flow, from, fraction, here.before);
             let mut part = Part::WHOLE;
             let (tau, time, mut state) = loop {
                 let size = part.share * wanted;
@@ -81,13 +83,8 @@ where
                 if sides::<N, M, F>().is_empty() {
                     break (tau, time, state);
                 }
-                match self.look_ahead::<P, M, F>(
-                    flow,
-                    jet,
-                    here,
-                    (tau, time, &state),
-                    (fresh, part),
-                ) {
+                let end = (tau, time, &state);
+                match self.look_ahead::<P, M, F>(flow, jet, here, end, (fresh, part)) {
                     Ahead::Free => break (tau, time, state),
                     Ahead::Crossing(found) => return Ended::Before { found, tau, level },
                     Ahead::Undecided(shorter) => part = shorter,
@@ -127,7 +124,7 @@ where
     ) -> Ahead {
         let field = flow.vector_field(time.value, &state.x);
         let glimpse = Glimpse {
-            tau,
+            tau: jet.in_units(tau),
             decay: self.progress.decay,
         };
         let mut once: Option<Found> = None;
@@ -138,7 +135,7 @@ where
             let boundary = flow.boundary();
             let value = boundary.switching_function(interface, time.value, &state.x);
             let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
-            let slope = by_time + dot(&gradient, &field);
+            let slope = (by_time + dot(&gradient, &field)) * jet.unit();
             let fresh = fresh == Some(interface);
             match glimpse.at(c, (value, slope), side.sign(), fresh) {
                 Glance::Out => {}
@@ -146,8 +143,8 @@ where
                     near |= once.is_some();
                     once = Some(Found {
                         interface,
-                        elapsed,
-                        start: Some((c[0], c[1])),
+                        elapsed: elapsed * jet.unit(),
+                        start: Some((c[0], jet.in_units(c[1]))),
                     });
                 }
                 Glance::Near => near = true,
@@ -182,7 +179,9 @@ where
         };
         let (t, x) = (here.time.value, &here.state.x);
         jet.expand_switching(flow, t);
-        let mut first: Option<Found> = None;
+        // in units, like the coefficients
+        let tau = jet.in_units(tau);
+        let mut first: Option<(usize, f64)> = None;
         for &(interface, side) in sides::<N, M, F>() {
             let sign = side.sign();
             let series = jet.switching(interface).map(|c| sign * c);
@@ -194,12 +193,12 @@ where
             let noise = NOISE * f64::ROUNDING * size;
             let on_it = fresh == Some(interface) || (series[0] <= noise && series[1] > 0.0);
             // on the interface zero is a root, which is divided off
-            let (series, unit) = match on_it {
+            let (series, part) = match on_it {
                 true => (&series[1..], 1.0 / tau),
                 false => (&series[..], 1.0),
             };
-            let (noise, band) = (noise * unit, band * size * unit);
-            let horizon = first.as_ref().map_or(tau, |first| first.elapsed);
+            let (noise, band) = (noise * part, band * size * part);
+            let horizon = first.map_or(tau, |(_, elapsed)| elapsed);
             if band > noise && dips(series, horizon, band) {
                 return Ahead::Undecided(Part {
                     share: self.progress.finest,
@@ -212,14 +211,16 @@ where
             } = first_root(series, horizon, noise);
             self.statistics.grazes += u64::from(touches);
             if let Some((lower, upper)) = found {
-                first = Some(Found {
-                    interface,
-                    elapsed: root(series, lower, upper),
-                    start: None,
-                });
+                first = Some((interface, root(series, lower, upper)));
             }
         }
-        first.map_or(Ahead::Free, Ahead::Crossing)
+        first.map_or(Ahead::Free, |(interface, elapsed)| {
+            Ahead::Crossing(Found {
+                interface,
+                elapsed: elapsed * jet.unit(),
+                start: None,
+            })
+        })
     }
 
     /// Serves the output times of a step over `tau` that ends at `end`.

@@ -16,7 +16,7 @@ use crate::observer::{Observer, Point};
 use crate::scalar::Scalar;
 use crate::scheme::Best;
 use crate::series::MOST_COEFFICIENTS;
-use crate::series::jet::Jet;
+use crate::series::jet::{Jet, unit_for};
 use crate::series::polynomial::{Roots, first_root, root};
 use crate::state::State;
 use crate::system::{Boundary, Flow, Side, System, Vector};
@@ -274,10 +274,11 @@ where
         tau: f64,
     ) -> Course {
         let t = self.time.value;
-        let mut jet = Jet::<F, N, M, MOST_COEFFICIENTS>::new(MOST_COEFFICIENTS - 1);
+        let unit = unit_for(tau);
+        let mut jet = Jet::<F, N, M, MOST_COEFFICIENTS>::new(MOST_COEFFICIENTS - 1, unit);
         jet.expand(flow, t, &self.state.x);
         jet.expand_switching(flow, t);
-        let mut horizon = tau;
+        let mut horizon = jet.in_units(tau);
         let mut first = Course::Free { room: false };
         for (i, &(interface, side)) in sides::<N, M, F>().iter().enumerate() {
             let series = jet.switching(interface).map(|c| side.sign() * c);
@@ -289,7 +290,7 @@ where
             let on_it = fresh == Some(interface) || (series[0] <= noise && series[1] > 0.0);
             // on the interface zero is a root, which is divided off
             let (series, noise) = match on_it {
-                true => (&series[1..], noise / tau),
+                true => (&series[1..], noise / jet.in_units(tau)),
                 false => (&series[..], noise),
             };
             let Roots {
@@ -301,7 +302,7 @@ where
                 horizon = root(series, lower, upper);
                 first = Course::Crossing(Found {
                     side: i,
-                    elapsed: horizon,
+                    elapsed: horizon * unit,
                     precise: true,
                 });
             }

@@ -133,6 +133,7 @@ fn implementation(
         select(arms.collect(), quote!(#scalar::from_f64(f64::NAN)))
     };
     let interfaces = &emission.scheme.interfaces;
+    let autonomous = interfaces.iter().all(|interface| interface.autonomous);
     let affine = interfaces.iter().all(|interface| interface.affine);
     let affine = affine.then(|| {
         quote!(
@@ -168,6 +169,7 @@ fn implementation(
                 const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
                 BY_REGION[REGION]
             };
+            const AUTONOMOUS: bool = #autonomous;
             #affine
             type Each<T: ::core::marker::Copy> = [T; COUNT];
             #[inline]

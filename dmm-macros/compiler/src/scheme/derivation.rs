@@ -37,6 +37,7 @@ fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
     SwitchingScheme {
         time_derivative: differentiate(dag, function, &Model::time()),
         gradient: gradient(dag, function, states),
+        autonomous: !dag.variables([function]).contains(&Model::time()),
         affine: is_affine(dag, [function], &arguments),
     }
 }

@@ -44,6 +44,8 @@ pub struct SwitchingScheme {
     pub time_derivative: Id,
     /// ∇g
     pub gradient: Vec<Id>,
+    /// Whether g does not depend on the time.
+    pub autonomous: bool,
     /// Whether g is affine in t and x: ∂ₜg and ∇g depend on parameters alone.
     pub affine: bool,
 }
