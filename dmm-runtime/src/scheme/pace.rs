@@ -8,10 +8,10 @@
 //! τ⁻² = (‖c_p‖^{2/p} + ‖c_{p+1}‖^{2/(p+1)})/2 · tol^{−2/(p+1)}.
 //!
 //! Where coefficients leave the range of doubles, they are taken in another unit of time; see
-//! [`crate::series::jet`].
+//! [`crate::series::radius`].
 
 use crate::series::InUnits;
-use crate::series::jet::{LARGEST, SMALLEST, is_polynomial, unit_for};
+use crate::series::radius::{LARGEST, SMALLEST, is_polynomial, unit_for};
 use crate::system::{Flow, Vector};
 
 /// Coefficients: enough for order 8.

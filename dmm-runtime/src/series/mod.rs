@@ -6,10 +6,12 @@
 //! series of a system advance together, one order at a time.
 //!
 //! The order is an [`Order`]: a constant of the type, so that the sums are unrolled into
-//! straight-line code, or a number.
+//! straight-line code, or a number. A number comes with a unit of time σ: the coefficients are
+//! those of (h/σ)ᵏ then.
 
 pub(crate) mod jet;
 pub(crate) mod polynomial;
+pub(crate) mod radius;
 #[cfg(test)]
 mod tests;
 mod unroll;

@@ -75,8 +75,8 @@ fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
             first.0, last.0, first.1
         ));
     }
-    // where coefficients leave the range of doubles, steps are others, of a lower order
-    let bound = BOUND.max((2e4 * setting.tolerance).min(0.2));
+    // a unit of time that is a power of two makes other steps, by a few parts in a hundred
+    let bound = BOUND.max((300.0 * setting.tolerance).min(0.05));
     Row::new(what, setting.name, Verdict::within(worst <= bound), finding)
 }
 
