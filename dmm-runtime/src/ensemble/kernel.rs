@@ -7,7 +7,7 @@ use super::level::Place;
 use super::register::{Register, WIDTH, Wide};
 use crate::lanes::Mask;
 use crate::scalar::Scalar;
-use crate::series::jet::{expand, first_switching};
+use crate::series::jet::{BoundaryUnrolled, expand, first_switching};
 use crate::series::polynomial::increment;
 use crate::series::radius::{FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE};
 use crate::system::{Boundary, Flow, FlowVisitor, Vector};
@@ -176,7 +176,8 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     #[inline(always)]
     fn expand(&mut self) {
         let Register { t, x, .. } = &*self.register;
-        expand(self.flow, (*t, x), self.series, COEFFICIENTS, 1.0);
+        let series = &mut *self.series;
+        expand::<_, F, F::Unrolled, N, M, _>(self.flow, (*t, x), series, COEFFICIENTS, 1.0);
     }
 
     /// The steps that the tolerance allows, and where coefficients may have left the range of
@@ -206,11 +207,11 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let n = Wide::from_f64;
         // what is lost to underflow counts only in a time of powers as large
         let remaining = n(self.settings.end) - self.register.t;
-        let lost = n(SMALLEST_DECISIVE)
-            .above(last)
-            .and(remaining.above(n(FASTEST)));
-        let is_lost = n(LARGEST_DECISIVE).above(last).not().or(lost);
-        (n(self.settings.fraction) * radius, is_lost)
+        let is_long = remaining.above(n(FASTEST));
+        let too_small = n(SMALLEST_DECISIVE).above(last).and(is_long);
+        let too_large = n(LARGEST_DECISIVE).above(last).not();
+        let step = n(self.settings.fraction) * radius;
+        (step, too_small.or(too_large))
     }
 
     /// Σ xⱼ hʲ over j ≥ 1.
@@ -264,7 +265,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     fn step(&mut self, entry: &Entry) -> bool {
         let n = Wide::from_f64;
         let (start, start_remainder) = (self.register.t, self.register.t_remainder);
-        let (wanted, is_lost) = self.wanted(entry.enters);
+        let (wanted, out_of_range) = self.wanted(entry.enters);
         let wanted = wanted.settled();
         let mut size = wanted;
         let mut halvings = 0;
@@ -289,7 +290,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             .and(place.t_remainder.equals(start_remainder));
         let moves = tau.above(n(0.0)).and(stands.not());
         let mut hard = ahead.hard.or(is_finite(&place).not()).or(moves.not());
-        hard = hard.or(is_lost);
+        hard = hard.or(out_of_range);
         if let Some(barred) = entry.barred {
             hard = hard.or(barred);
         }
@@ -318,7 +319,9 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         }
         let field = self.flow.vector_field(place.t, &place.x);
         let (t, solution) = (self.register.t, self.series.as_ref());
-        let first = first_switching::<_, F, N, M, COEFFICIENTS>(self.flow, t, solution, 1.0);
+        let first = first_switching::<_, F, BoundaryUnrolled<_, F, N, M>, N, M, COEFFICIENTS>(
+            self.flow, t, solution, 1.0,
+        );
         for &(interface, side) in Self::sides() {
             let sign = Wide::from_f64(side.sign());
             let series = first.as_ref()[interface].map(|c| sign * c);

@@ -7,7 +7,8 @@ use crate::observer::Observer;
 use crate::scheme::drive::{Window, check_tolerance};
 use crate::scheme::{Drive, Stuck};
 use crate::series::jet::Jet;
-use crate::series::{Choice, Unroll};
+use crate::series::radius::OtherUnit;
+use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
 use crate::state::State;
 use crate::system::{Flow, System, Vector};
 use crate::time::Time;
@@ -143,7 +144,10 @@ where
     type Output = Result<SegmentEnd, Error>;
 
     fn with<const P: usize>(self) -> Self::Output {
-        self.walk.expand::<P, M, F>(self.flow)
+        match self.walk.progress.unit == 1.0 {
+            true => self.walk.expand::<P, M, F, F::Unrolled>(self.flow),
+            false => self.walk.expand_in_units(self.flow),
+        }
     }
 }
 
@@ -161,6 +165,15 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, F,
     type Output = Result<Vector<f64, N>, Stuck<N>>;
 
     fn with<const P: usize>(self) -> Self::Output {
+        match self.unit == 1.0 {
+            true => self.run::<P, F::Unrolled>(),
+            false => self.run::<MOST_COEFFICIENTS, Rolled>(),
+        }
+    }
+}
+
+impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Reach<'_, F, N, M> {
+    fn run<const P: usize, U: Unroll>(self) -> Result<Vector<f64, N>, Stuck<N>> {
         let Self {
             scheme,
             flow,
@@ -171,12 +184,18 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, F,
         let mut time = Time::new(t0);
         let mut state = State::new(x0);
         let level = Level::enter(flow, time, &state);
-        let mut jet = Jet::<F, N, M, P>::new(scheme.order(), unit);
+        let mut jet = Jet::<F, U, N, M, P>::new(scheme.order(), unit);
         let mut before = 0.0;
         while time.value < to {
             jet.expand(flow, time.value, &state.x);
-            let from = (time.value, &state.x);
-            let wanted = jet.step(flow, from, scheme.fraction(), before);
+            let wanted = match jet.step(flow, time.value, scheme.fraction(), before) {
+                Ok(wanted) => wanted,
+                Err(OtherUnit(unit)) => {
+                    let from = (time.value, state.rounded());
+                    let rest = Self { from, unit, ..self };
+                    return rest.run::<MOST_COEFFICIENTS, Rolled>();
+                }
+            };
             let end = time.value + wanted;
             let next = Time::new(if end < to { end } else { to });
             let increment = jet.increment(next.since(time));

@@ -5,11 +5,18 @@
 //! range of doubles: a rate of 10¹⁵ has 10³³⁰ as its power of 22. There σ is a power of two near
 //! the radius, so that no coefficient is far from the state.
 
+use super::Unroll;
 use super::jet::Jet;
 use super::polynomial::{inverse_exponent, inverse_root};
-use crate::system::{Flow, Vector};
+use crate::system::Flow;
 
-impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, N, M, P> {
+/// The unit of time that coefficients are in range in, where they are not in the unit 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OtherUnit(pub(crate) f64);
+
+impl<F: Flow<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P: usize>
+    Jet<F, U, N, M, P>
+{
     /// The step over `fraction` of the radius of convergence, which the root test on two
     /// coefficients estimates: not on the last ones, so that the step is known while these are
     /// computed, and the powers of it with them.
@@ -17,19 +24,19 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
     /// Each component counts relative to |x₀| + |x₁| h with the step h `before`, so that neither
     /// its zeros nor its unit matter; where there was none, relative to the largest component.
     ///
-    /// Where coefficients leave the range of doubles, they are expanded again, `from` the same
-    /// point, in another unit of time.
+    /// Where coefficients leave the range of doubles, they are expanded again, at the same `t`, in
+    /// another unit of time; straight-line code has none.
     #[inline(always)]
     pub(crate) fn step(
         &mut self,
         flow: &F,
-        from: (f64, &Vector<f64, N>),
+        t: f64,
         fraction: f64,
         before: f64,
-    ) -> f64 {
+    ) -> Result<f64, OtherUnit> {
         let order = self.decisive();
         if before == 0.0 {
-            return self.first_step(flow, (from.0, *from.1), fraction);
+            return self.first_step(flow, t, fraction);
         }
         let before = self.in_units(before);
         let (mut last, mut second) = (0.0f64, 0.0f64);
@@ -41,9 +48,9 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
         }
         // those of higher order are not, yet
         if !(last > SMALLEST_DECISIVE && last < LARGEST_DECISIVE) {
-            return self.first_step(flow, (from.0, *from.1), fraction);
+            return self.first_step(flow, t, fraction);
         }
-        fraction * radius(order, last, second) * self.unit()
+        Ok(fraction * radius(order, last, second) * self.unit())
     }
 
     /// The order of the later coefficient that decides on the step.
@@ -60,7 +67,7 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
     /// on a unit of time; if they are lost in that too, they are left out. Coefficients that end
     /// are those of a polynomial.
     #[cold]
-    fn first_step(&mut self, flow: &F, (t, x): (f64, Vector<f64, N>), fraction: f64) -> f64 {
+    fn first_step(&mut self, flow: &F, t: f64, fraction: f64) -> Result<f64, OtherUnit> {
         /// Each brings the unit nearer to the solution's by the powers of a few coefficients.
         const MOST_UNITS: u32 = 8;
         let order = self.order();
@@ -73,11 +80,13 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
             if unit == self.unit() {
                 break;
             }
-            self.set_unit(unit);
-            self.expand(flow, t, &x);
+            if U::EXACT {
+                return Err(OtherUnit(unit));
+            }
+            self.expand_in(unit, flow, t);
             usable = self.usable();
         }
-        match usable {
+        Ok(match usable {
             Some(usable) if usable == order => {
                 fraction * self.radius_at(self.decisive()) * self.unit()
             }
@@ -89,7 +98,7 @@ impl<F: Flow<f64, N, M>, const N: usize, const M: usize, const P: usize> Jet<F, 
                 fraction.powf(order as f64 / usable as f64) * self.time_scale(usable)
             }
             None => f64::NAN,
-        }
+        })
     }
 
     /// The highest order up to which coefficients are neither lost to overflow nor to underflow.

@@ -22,14 +22,15 @@ pub trait Choice {
 
 /// How [`Coefficients`] advance.
 pub trait Unroll {
-    /// Whether there are P coefficients for the order P − 1 only, and not for lower ones too.
+    /// Whether there are P coefficients for the order P − 1 only, and not for lower ones too; and
+    /// for the unit of time 1 only.
     const EXACT: bool;
 
     /// Does `choice` with room for the coefficients up to `order`.
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output;
 
     /// Advances through the orders k with FROM ≤ k and k + LESS < TO; `end` takes the place of
-    /// TO where it is lower. Straight-line code is for the unit of time 1 only.
+    /// TO where it is lower.
     fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
         series: &mut C,
         end: usize,

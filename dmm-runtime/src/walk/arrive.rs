@@ -13,6 +13,7 @@ use crate::level::{Level, Weights, switching_in_pairs};
 use crate::linear::{dot, is_finite};
 use crate::observer::Observer;
 use crate::scheme::Taylor;
+use crate::series::Unroll;
 use crate::series::jet::Jet;
 use crate::state::State;
 use crate::system::{Boundary, Flow, System, Vector};
@@ -92,16 +93,17 @@ where
 {
     /// Moves to the interface.
     #[inline(never)]
-    pub(super) fn arrive<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    pub(super) fn arrive<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &mut self,
         flow: &F,
         level: &Level<N, M>,
-        jet: &Jet<F, N, M, P>,
+        jet: &Jet<F, U, N, M, P>,
         found: &Found,
         tau: f64,
     ) -> Result<SegmentEnd, Error> {
         let interface = found.interface;
-        let Some((time, state, rate)) = self.locate::<P, M, F>(flow, level, jet, found, tau) else {
+        let Some((time, state, rate)) = self.locate::<P, M, F, U>(flow, level, jet, found, tau)
+        else {
             return Err(Error::LocationFailed {
                 t: self.time.value,
                 x: self.state.x.iter().copied().collect(),
@@ -111,7 +113,7 @@ where
         };
         let elapsed = time.since(self.time).clamp(0.0, tau);
         let here = Here::of(self);
-        self.outputs_along::<P, M, F>(flow, level, jet, &here, (elapsed, time));
+        self.outputs_along::<P, M, F, U>(flow, level, jet, &here, (elapsed, time));
         self.state = state;
         self.time = time;
         self.statistics.steps += 1;
@@ -125,11 +127,11 @@ where
 
     /// t̂*, x̂* and dg/dt there.
     #[inline(always)]
-    fn locate<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn locate<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &self,
         flow: &F,
         level: &Level<N, M>,
-        jet: &Jet<F, N, M, P>,
+        jet: &Jet<F, U, N, M, P>,
         found: &Found,
         tau: f64,
     ) -> Option<(Time, State<N>, f64)> {

@@ -9,6 +9,8 @@ use crate::scalar::Scalar;
 use crate::scheme::Taylor;
 use crate::series::jet::Jet;
 use crate::series::polynomial::{Roots, dips, first_root, root};
+use crate::series::radius::OtherUnit;
+use crate::series::{MOST_COEFFICIENTS, Rolled, Unroll};
 use crate::state::State;
 use crate::system::{Boundary, Flow, Side, System};
 use crate::time::Time;
@@ -28,16 +30,16 @@ where
     Obs: Observer<Sys::Region, N>,
 {
     /// Steps with P coefficients, until the boundary of the region or the end time is reached.
-    pub(crate) fn expand<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    pub(crate) fn expand<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &mut self,
         flow: &F,
     ) -> Result<SegmentEnd, Error> {
         let mut here = Here::of(self);
-        let mut jet = Jet::<F, N, M, P>::new(self.scheme.order(), self.progress.unit);
+        let mut jet = Jet::<F, U, N, M, P>::new(self.scheme.order(), self.progress.unit);
         jet.expand(flow, here.time.value, &here.state.x);
         // after the chain of recurrences, which leaves the processor time for it
         let level = Level::enter(flow, here.time, &here.state);
-        let end = self.steps::<P, M, F>(flow, level, &mut jet, &mut here);
+        let end = self.steps::<P, M, F, U>(flow, level, &mut jet, &mut here);
         self.time = here.time;
         self.state = here.state;
         self.progress.step = here.before;
@@ -46,19 +48,33 @@ where
         match end {
             Ended::At(end) => Ok(end),
             Ended::Before { found, tau, level } => {
-                self.arrive::<P, M, F>(flow, &level, &jet, &found, tau)
+                self.arrive::<P, M, F, U>(flow, &level, &jet, &found, tau)
             }
             Ended::Not(tau) => Err(self.failure(StepFailure::NotFinite, tau)),
+            Ended::Lost(unit) => {
+                self.progress.unit = unit;
+                self.fresh = self.fresh.filter(|_| here.steps == 0);
+                self.expand_in_units(flow)
+            }
         }
+    }
+
+    /// The same in any unit of time, not by straight-line code.
+    #[cold]
+    pub(crate) fn expand_in_units<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+    ) -> Result<SegmentEnd, Error> {
+        self.expand::<MOST_COEFFICIENTS, M, F, Rolled>(flow)
     }
 
     /// The steps, from local variables to local variables; `jet` is that of the start.
     #[inline(always)]
-    fn steps<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn steps<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &mut self,
         flow: &F,
         mut level: Level<N, M>,
-        jet: &mut Jet<F, N, M, P>,
+        jet: &mut Jet<F, U, N, M, P>,
         here: &mut Here<N>,
     ) -> Ended<N, M> {
         let end = self.progress.end;
@@ -70,8 +86,10 @@ where
             if remaining <= 0.0 {
                 return Ended::At(SegmentEnd::Finished);
             }
-            let from = (here.time.value, &here.state.x);
-            let wanted = jet.step(flow, from, fraction, here.before);
+            let wanted = match jet.step(flow, here.time.value, fraction, here.before) {
+                Ok(wanted) => wanted,
+                Err(OtherUnit(unit)) => return Ended::Lost(unit),
+            };
             let mut part = Part::WHOLE;
             let (tau, time, mut state) = loop {
                 let size = part.share * wanted;
@@ -84,14 +102,14 @@ where
                     break (tau, time, state);
                 }
                 let end = (tau, time, &state);
-                match self.look_ahead::<P, M, F>(flow, jet, here, end, (fresh, part)) {
+                match self.look_ahead::<P, M, F, U>(flow, jet, here, end, (fresh, part)) {
                     Ahead::Free => break (tau, time, state),
                     Ahead::Crossing(found) => return Ended::Before { found, tau, level },
                     Ahead::Undecided(shorter) => part = shorter,
                 }
             };
             if self.observer.next_output().is_some() {
-                self.outputs_along::<P, M, F>(flow, &level, jet, here, (tau, time));
+                self.outputs_along::<P, M, F, U>(flow, &level, jet, here, (tau, time));
             }
             state = level.reached(flow, time, state, &(state.x - here.state.x), corrects);
             if !is_finite(&state.x) {
@@ -114,10 +132,10 @@ where
 
     /// The first crossing of a step that ends at `state`, if there is one.
     #[inline(always)]
-    fn look_ahead<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn look_ahead<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &mut self,
         flow: &F,
-        jet: &mut Jet<F, N, M, P>,
+        jet: &mut Jet<F, U, N, M, P>,
         here: &Here<N>,
         (tau, time, state): (f64, Time, &State<N>),
         (fresh, part): (Option<usize>, Part),
@@ -153,7 +171,7 @@ where
         match (near, once) {
             (true, _) => match part.half() {
                 Some(half) => Ahead::Undecided(half),
-                None => self.first::<P, M, F>(flow, jet, here, tau, (fresh, part)),
+                None => self.first::<P, M, F, U>(flow, jet, here, tau, (fresh, part)),
             },
             (false, Some(found)) => Ahead::Crossing(found),
             (false, None) => Ahead::Free,
@@ -164,10 +182,10 @@ where
     /// interface as the error of the step, and returns, is left undecided.
     #[cold]
     #[inline(never)]
-    fn first<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn first<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &mut self,
         flow: &F,
-        jet: &mut Jet<F, N, M, P>,
+        jet: &mut Jet<F, U, N, M, P>,
         here: &Here<N>,
         tau: f64,
         (fresh, part): (Option<usize>, Part),
@@ -224,11 +242,11 @@ where
     }
 
     /// Serves the output times of a step over `tau` that ends at `end`.
-    pub(super) fn outputs_along<const P: usize, const M: usize, F: Flow<f64, N, M>>(
+    pub(super) fn outputs_along<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
         &mut self,
         flow: &F,
         level: &Level<N, M>,
-        jet: &Jet<F, N, M, P>,
+        jet: &Jet<F, U, N, M, P>,
         here: &Here<N>,
         (tau, end): (f64, Time),
     ) {
@@ -333,6 +351,8 @@ enum Ended<const N: usize, const M: usize> {
     },
     /// With one of this size that cannot be made.
     Not(f64),
+    /// With coefficients that are in range in this unit of time.
+    Lost(f64),
 }
 
 /// The size and the end of a step of about `wanted`; nothing if it is none.

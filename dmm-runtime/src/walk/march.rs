@@ -15,10 +15,10 @@ use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
 use crate::scalar::Scalar;
 use crate::scheme::Best;
-use crate::series::MOST_COEFFICIENTS;
 use crate::series::jet::Jet;
 use crate::series::polynomial::{Roots, first_root, root};
 use crate::series::radius::unit_for;
+use crate::series::{MOST_COEFFICIENTS, Rolled};
 use crate::state::State;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::time::Time;
@@ -276,7 +276,7 @@ where
     ) -> Course {
         let t = self.time.value;
         let unit = unit_for(tau);
-        let mut jet = Jet::<F, N, M, MOST_COEFFICIENTS>::new(MOST_COEFFICIENTS - 1, unit);
+        let mut jet = Jet::<F, Rolled, N, M, MOST_COEFFICIENTS>::new(MOST_COEFFICIENTS - 1, unit);
         jet.expand(flow, t, &self.state.x);
         jet.expand_switching(flow, t);
         let mut horizon = jet.in_units(tau);
