@@ -28,7 +28,9 @@ use crate::walk::{SegmentEnd, Walk};
 /// 2003). Steps are as long as the switching functions allow. Every crossing is found: it is
 /// excluded by a bound of g⁗ along the step, or located on the flow, to the last bit of a pair of
 /// doubles. A stiff region takes short steps only while its fast modes decay. Between crossings
-/// there may be few points; ask for output times to see the solution there.
+/// there may be few points; ask for output times to see the solution there. Rates ‖A‖ may lie
+/// between 10⁻¹⁸ and 10¹⁸ in the unit of time; the powers of others leave the range of doubles, and
+/// their crossings are refused.
 ///
 /// Regions of both kinds may be in one system. A crossing changes the scheme, no more.
 ///
