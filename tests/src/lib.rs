@@ -1,1 +1,19 @@
-//! Tests across the workspace; see `tests/`.
+//! Tests across the workspace; see `tests/`. What several of them do is here.
+
+use dmm_runtime::{End, Halted, Integrator, Scheme, System};
+
+/// The end of a run from `initial` at t = 0.
+///
+/// # Errors
+///
+/// What stops it before `t_end`.
+pub fn run<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    scheme: impl Scheme,
+    initial: [f64; N],
+    t_end: f64,
+) -> Result<End<Sys::Region, N>, Halted<Sys::Region, N>> {
+    Integrator::new(system, scheme)
+        .initial(0.0, initial)
+        .observe_until(t_end, &mut ())
+}

@@ -2,9 +2,8 @@
 //! it, transitions and outputs are those of uniform steps, and what cannot go on ends typed.
 
 use dmm_problems::systems::elliptic::Elliptic;
-use dmm_runtime::{
-    Composed, End, Error, Integrator, Scheme, Symmetric, System, Taylor, Vector, pws,
-};
+use dmm_runtime::{Composed, Error, Integrator, Scheme, Symmetric, Taylor, Vector, pws};
+use dmm_tests::run;
 
 pws! {
     /// A planet.
@@ -31,27 +30,11 @@ pws! {
 /// Eccentricity 0.9, at the far end.
 const PLANET: [f64; 4] = [1.9, 0.0, 0.0, 0.229_415_733_870_561_77];
 
-fn end<Sys: System<N>, Sch: Scheme, const N: usize>(
-    system: &Sys,
-    scheme: Sch,
-    initial: [f64; N],
-    t_end: f64,
-) -> End<Sys::Region, N> {
-    Integrator::new(system, scheme)
-        .initial(0.0, initial)
-        .observe_until(t_end, &mut ())
-        .unwrap()
-}
-
 /// The error of the elliptic problem at t = 10, after ten transitions.
 fn error(scheme: impl Scheme) -> f64 {
-    let exact = end(
-        &Elliptic::default(),
-        Taylor::tolerance(1e-15),
-        [-1.0, -1.0],
-        10.0,
-    );
-    let found = end(&Elliptic::default(), scheme, [-1.0, -1.0], 10.0);
+    let system = Elliptic::default();
+    let exact = run(&system, Taylor::tolerance(1e-15), [-1.0, -1.0], 10.0).unwrap();
+    let found = run(&system, scheme, [-1.0, -1.0], 10.0).unwrap();
     assert_eq!(found.statistics.transitions, 10);
     (found.point.x - exact.point.x).norm()
 }
@@ -120,12 +103,13 @@ fn outputs_and_solutions_in_between_conserve() {
         .unwrap();
     let times: Vec<f64> = solution.points().iter().map(|point| point.t).collect();
     assert_eq!(times, [0.1, 0.25, 1.0, 4.0]);
-    let exact = end(
+    let exact = run(
         &Elliptic::default(),
         Taylor::tolerance(1e-15),
         [-1.0, -1.0],
         4.0,
-    );
+    )
+    .unwrap();
     let at = solution.at(4.0).unwrap();
     assert!((at - exact.point.x).norm() < 1e-6);
     let last = solution.points().last().unwrap();
@@ -135,10 +119,7 @@ fn outputs_and_solutions_in_between_conserve() {
 #[test]
 fn a_singularity_ends_in_a_typed_error() {
     for tolerance in [1e-3, 1e-6] {
-        let halted = Integrator::new(&Blowup {}, Symmetric::tolerance(tolerance))
-            .initial(0.0, [1.0])
-            .observe_until(2.0, &mut ())
-            .unwrap_err();
+        let halted = run(&Blowup {}, Symmetric::tolerance(tolerance), [1.0], 2.0).unwrap_err();
         assert!(matches!(
             halted.error(),
             Error::LeftDomain { .. } | Error::NewtonFailed { .. }

@@ -1,9 +1,7 @@
 //! Units of time, and sizes: a solution that moves 10⁶⁰ times as fast, or as slowly, is the same one.
 
-use dmm_runtime::{
-    Composed, End, Ensemble, Error, Integrator, Member, Scheme, Symmetric, System, Taylor, Vector,
-    pws,
-};
+use dmm_runtime::{Composed, End, Ensemble, Error, Member, Scheme, Symmetric, Taylor, Vector, pws};
+use dmm_tests::run;
 
 pws! {
     /// A mass on a spring whose force grows with the third power: s times as large, it moves s
@@ -37,24 +35,12 @@ pws! {
 /// Powers of two that the rate is changed by.
 const EXPONENTS: [i32; 11] = [-490, -400, -232, -150, -100, -50, 50, 84, 100, 250, 490];
 
-fn end<Sys: System<N>, const N: usize>(
-    system: &Sys,
-    scheme: impl Scheme,
-    initial: [f64; N],
-    t_end: f64,
-) -> End<Sys::Region, N> {
-    Integrator::new(system, scheme)
-        .initial(0.0, initial)
-        .observe_until(t_end, &mut ())
-        .unwrap()
-}
-
 /// The state after 2 units of the time that it moves in, of an orbit 2^`exponent` times as large,
 /// divided by its scale.
 fn quartic(scheme: impl Scheme, exponent: i32) -> Vector<f64, 2> {
     let scale = f64::from(exponent).exp2();
     let initial = [0.25 * scale, 0.75 * scale * scale];
-    let found = end(&Quartic {}, scheme, initial, 2.0 / scale);
+    let found = run(&Quartic {}, scheme, initial, 2.0 / scale).unwrap();
     assert!(found.statistics.steps < 10_000, "{exponent}");
     let x = found.point.x;
     Vector::from([x[0] / scale, x[1] / (scale * scale)])
@@ -79,7 +65,7 @@ fn a_larger_orbit_in_a_quartic_potential_is_as_accurate() {
 /// The driven oscillator with rates of 2^`exponent`.
 fn driven(scheme: impl Scheme, exponent: i32) -> End<DrivenRegion, 2> {
     let s = f64::from(exponent).exp2();
-    end(&Driven { s }, scheme, [0.7, 0.1], 20.0 / s)
+    run(&Driven { s }, scheme, [0.7, 0.1], 20.0 / s).unwrap()
 }
 
 #[test]
@@ -118,7 +104,7 @@ fn an_ensemble_does_what_its_members_do_alone_in_every_unit() {
             let scheme = Taylor::tolerance(tolerance);
             let together = Ensemble::new(scheme).collect_until(t_end, members.iter().cloned());
             for (member, outcome) in members.iter().zip(together) {
-                let alone = end(&member.system, scheme, member.x0.into(), t_end);
+                let alone = run(&member.system, scheme, member.x0.into(), t_end).unwrap();
                 let found = outcome.unwrap();
                 let distance = (found.point.x - alone.point.x).norm();
                 assert!(distance <= bound, "{exponent}, {tolerance:e}: {distance:e}");
@@ -133,10 +119,7 @@ fn an_ensemble_does_what_its_members_do_alone_in_every_unit() {
 
 /// Halted where the state is still finite.
 fn halts(scheme: impl Scheme, initial: [f64; 2], t_end: f64) {
-    let halted = Integrator::new(&Quartic {}, scheme)
-        .initial(0.0, initial)
-        .observe_until(t_end, &mut ())
-        .unwrap_err();
+    let halted = run(&Quartic {}, scheme, initial, t_end).unwrap_err();
     assert!(matches!(halted.error(), Error::LeftDomain { .. }));
     let end = halted.end().unwrap();
     assert!(end.point.x.iter().all(|x| x.is_finite()), "{end:?}");

@@ -11,7 +11,7 @@
 //! [`crate::series::radius`].
 
 use crate::series::InUnits;
-use crate::series::radius::{LARGEST, SMALLEST, is_polynomial, unit_for};
+use crate::series::radius::{LARGEST, MOST_UNITS, SMALLEST, is_polynomial, unit_for};
 use crate::system::{Flow, Vector};
 
 /// Coefficients: enough for order 8.
@@ -55,8 +55,6 @@ impl<const N: usize> Pacer<N> {
         t: f64,
         x: &Vector<f64, N>,
     ) -> f64 {
-        /// Each brings the unit nearer to the solution's by the powers of a few coefficients.
-        const MOST_UNITS: u32 = 8;
         let mut pace = self.in_units(flow, t, x);
         for _ in 0..MOST_UNITS {
             let unit = unit_for(self.unit / pace.rate);

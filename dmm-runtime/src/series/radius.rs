@@ -68,8 +68,6 @@ impl<F: Flow<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P: usi
     /// are those of a polynomial.
     #[cold]
     fn first_step(&mut self, flow: &F, t: f64, fraction: f64) -> Result<f64, OtherUnit> {
-        /// Each brings the unit nearer to the solution's by the powers of a few coefficients.
-        const MOST_UNITS: u32 = 8;
         let order = self.order();
         let mut usable = self.usable();
         for _ in 0..MOST_UNITS {
@@ -170,6 +168,9 @@ pub(crate) const SMALLEST_DECISIVE: f64 = 1e-150;
 pub(crate) const LARGEST_DECISIVE: f64 = 1e150;
 /// The largest rate whose power of the highest order is in range.
 pub(crate) const FASTEST: f64 = 1e9;
+
+/// The most units to try: each is nearer to the solution's by the powers of a few coefficients.
+pub(crate) const MOST_UNITS: u32 = 8;
 
 /// A unit of time for the coefficients of a solution that changes in `time`, whose powers are in
 /// range: 1 if it will do, else a power of two.

@@ -51,7 +51,7 @@ where
                 self.arrive::<P, M, F, U>(flow, &level, &jet, &found, tau)
             }
             Ended::Not(tau) => Err(self.failure(StepFailure::NotFinite, tau)),
-            Ended::Lost(unit) => {
+            Ended::Lost(OtherUnit(unit)) => {
                 self.progress.unit = unit;
                 self.fresh = self.fresh.filter(|_| here.steps == 0);
                 self.expand_in_units(flow)
@@ -88,7 +88,7 @@ where
             }
             let wanted = match jet.step(flow, here.time.value, fraction, here.before) {
                 Ok(wanted) => wanted,
-                Err(OtherUnit(unit)) => return Ended::Lost(unit),
+                Err(other) => return Ended::Lost(other),
             };
             let mut part = Part::WHOLE;
             let (tau, time, mut state) = loop {
@@ -351,8 +351,8 @@ enum Ended<const N: usize, const M: usize> {
     },
     /// With one of this size that cannot be made.
     Not(f64),
-    /// With coefficients that are in range in this unit of time.
-    Lost(f64),
+    /// With coefficients that are lost in the unit 1.
+    Lost(OtherUnit),
 }
 
 /// The size and the end of a step of about `wanted`; nothing if it is none.

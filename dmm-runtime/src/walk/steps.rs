@@ -88,9 +88,8 @@ where
                 };
                 let next = state.after(&increment);
                 let values = readings::<N, M, F>(flow, t1, &next.x);
-                let pauses = || self.observer.next_output().is_some_and(|t| t <= t1);
                 let near = is_near(&watching, &values);
-                if near || Obs::LISTENS || node == last || pauses() {
+                if near || Obs::LISTENS || node == last || self.has_output(t1) {
                     break Ok((tau, increment, next, values, near));
                 }
                 advance(&mut watching, &values, false);
@@ -107,7 +106,7 @@ where
                 break Err(StepFailure::NotFinite);
             }
             let t1 = grid.inner_value(node);
-            if near || self.observer.next_output().is_some_and(|t| t <= t1) {
+            if near || self.has_output(t1) {
                 self.settle::<M, F>(state, node, &mut counts);
                 *watches = watching;
                 if near && let Some(end) = self.look(flow, level, watches, tau, &increment)? {
@@ -183,6 +182,12 @@ where
         self.progress.node += 1;
         self.progress.at_node = tau >= 0.0;
         Ok(None)
+    }
+
+    /// Whether the observer wants the solution at a time up to `end`.
+    #[inline(always)]
+    fn has_output(&self, end: f64) -> bool {
+        self.observer.next_output().is_some_and(|t| t <= end)
     }
 
     /// Writes the local variables of [`Walk::full_steps`] back: the walk is at `state` at the
@@ -289,6 +294,7 @@ fn on_level<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     (state, increment): (State<N>, Vector<f64, N>),
     (grid, node): (Grid, u64),
 ) -> State<N> {
+    // here, as registers that hold the time in the loop over steps make that a tenth longer
     let t = grid.inner_value(node);
     let mut state = state.after(&increment).normalised();
     if node.is_multiple_of(RESCALING) {
