@@ -119,7 +119,7 @@ pub enum Error {
     /// A crossing is known to be in the step but its point could not be found.
     #[error(
         "interface `{interface}` is crossed in the step from t = {t}, x = {x:?} with step size \
-         {step_size:e}, but the crossing could not be located: try a smaller step size"
+         {step_size:e}, but no time could be found at which its switching function is zero"
     )]
     LocationFailed {
         /// Start of the step.
@@ -131,10 +131,26 @@ pub enum Error {
         /// Interface.
         interface: &'static str,
     },
-    /// Too many transitions within one step.
+    /// Whether an interface is met in a step cannot be decided.
     #[error(
-        "more than {limit} transitions within one step at t = {t}, x = {x:?}, the last at interface \
-         `{interface}`: they seem to accumulate (Zeno), or the step size is far too large"
+        "whether interface `{interface}` is met in the step from t = {t}, x = {x:?} with step size \
+         {step_size:e} cannot be decided: its switching function has no finite value there, or \
+         changes its sign too often"
+    )]
+    Undecided {
+        /// Start of the step.
+        t: f64,
+        /// State there.
+        x: Vec<f64>,
+        /// Step size.
+        step_size: f64,
+        /// Interface.
+        interface: &'static str,
+    },
+    /// Transitions accumulate.
+    #[error(
+        "{transitions} transitions within a time of {within:e} until t = {t}, x = {x:?}, the last at \
+         interface `{interface}`: they accumulate (Zeno), and what comes after is not determined"
     )]
     Zeno {
         /// Time of the last transition.
@@ -143,8 +159,10 @@ pub enum Error {
         x: Vec<f64>,
         /// Interface.
         interface: &'static str,
-        /// How many were allowed.
-        limit: u64,
+        /// How many there were …
+        transitions: u64,
+        /// … within this time.
+        within: f64,
     },
     /// An output was asked for at a time that was not integrated.
     #[error("no solution at t = {t}: it is known from {from} to {to}")]

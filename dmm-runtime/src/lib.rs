@@ -46,6 +46,7 @@
 mod end;
 mod ensemble;
 mod error;
+mod events;
 mod exact;
 mod integrator;
 mod lanes;

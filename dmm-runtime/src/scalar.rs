@@ -42,6 +42,11 @@ pub trait Scalar:
     fn settled(self) -> Self {
         self
     }
+    /// u²
+    #[inline(always)]
+    fn squared(self) -> Self {
+        self * self
+    }
     /// |u|
     fn abs(self) -> Self;
     /// √u

@@ -236,8 +236,15 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
     const SIDES: &'static [(usize, Side)];
     /// Whether no g depends on the time.
     const AUTONOMOUS: bool;
-    /// Whether every g is affine in t and x: ∂ₜg and ∇g depend on parameters alone.
-    const AFFINE: bool = false;
+    /// The degree of every g as a polynomial in t and x, if each is one: 1 where ∂ₜg and ∇g depend
+    /// on parameters alone.
+    const DEGREE: Option<u32> = None;
+    /// Whether every g is affine in t and x.
+    const AFFINE: bool = matches!(Self::DEGREE, Some(0..=1));
+    /// Whether the Taylor coefficients of every g along a solution fall off like those of the
+    /// solution: those of a polynomial of low degree do. Those of any other function may have a
+    /// radius of convergence of their own.
+    const FOLLOWS_STATE: bool = matches!(Self::DEGREE, Some(0..=4));
 
     /// One value for each entry of [`Boundary::SIDES`]: the array `[T; SIDES.len()]`.
     type Each<T: Copy>: Copy + AsRef<[T]> + AsMut<[T]>;
@@ -288,7 +295,7 @@ pub struct Unbounded;
 impl<S: Scalar, const N: usize> Boundary<S, N> for Unbounded {
     const SIDES: &'static [(usize, Side)] = &[];
     const AUTONOMOUS: bool = true;
-    const AFFINE: bool = true;
+    const DEGREE: Option<u32> = Some(0);
 
     type Each<T: Copy> = [T; 0];
     type Over<Other: Scalar> = Self;

@@ -20,7 +20,7 @@ use crate::end::{End, Halted};
 use crate::integrator::{InitialValueProblem, Integrator};
 use crate::observer::Observer;
 use crate::scheme::Scheme;
-use crate::system::{System, Vector};
+use crate::system::{Boundary, Flow, FlowVisitor, System, Vector};
 use crate::transition::NewtonLocator;
 use pool::Pool;
 use register::WIDTH;
@@ -108,6 +108,24 @@ pub struct Ensemble<Sch> {
     lanes: bool,
 }
 
+/// Whether the switching functions of every region follow the state, so that lanes tell as surely
+/// as enclosures what they meet.
+fn follow_state<Sys: System<N>, const N: usize>() -> bool {
+    let follows = |&region: &Sys::Region| Sys::visit_with(region, |_| 1.0, FollowsState);
+    Sys::REGIONS.iter().all(follows)
+}
+
+/// See [`Boundary::FOLLOWS_STATE`].
+struct FollowsState;
+
+impl<const N: usize> FlowVisitor<N> for FollowsState {
+    type Output = bool;
+
+    fn visit<const M: usize, F: Flow<f64, N, M>>(self, _: &F) -> bool {
+        <F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE
+    }
+}
+
 /// Of larger systems the coefficients of several trajectories do not fit the fastest memory.
 const MOST_STATES: usize = 8;
 
@@ -146,7 +164,8 @@ impl<Sch: Scheme> Ensemble<Sch> {
         sink: impl FnMut(usize, Outcome<Sys::Region, N>) -> ControlFlow<()>,
     ) -> usize {
         let members = members.into_iter();
-        let vectorised = match (self.lanes && N <= MOST_STATES, self.scheme.in_lanes()) {
+        let lanes = self.lanes && N <= MOST_STATES && follow_state::<Sys, N>();
+        let vectorised = match (lanes, self.scheme.in_lanes()) {
             (true, Some(taylor)) => Vectorised::of::<Sys, N>().map(|how| (how, taylor)),
             _ => None,
         };

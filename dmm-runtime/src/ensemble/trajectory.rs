@@ -13,7 +13,7 @@ use crate::statistics::Statistics;
 use crate::system::{System, Vector};
 use crate::time::Time;
 use crate::transition::NewtonLocator;
-use crate::walk::{Crowd, Walk, enter, run_segment};
+use crate::walk::{Accumulation, Walk, enter, run_segment};
 
 /// A crossing that is still to be judged.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
     /// How it came there, until the region entered has been found to take it.
     pub(super) crossing: Option<Crossing<Sys::Region>>,
     pub(super) progress: <Taylor as Drive>::Progress,
-    pub(super) crowd: Crowd,
+    pub(super) accumulation: Accumulation,
     pub(super) statistics: Statistics,
     /// ψ_ref, D and the noise of ψ in the region; see [`crate::level`].
     pub(super) level: [Vector<f64, N>; 3],
@@ -64,7 +64,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             fresh: start.interface,
             crossing: None,
             progress: problem.progress(t_end),
-            crowd: Crowd::default(),
+            accumulation: Accumulation::new(Time::new(member.t0)),
             statistics: Statistics::default(),
             level: [Vector::zeros(); 3],
             elapsed: 0.0,
@@ -94,10 +94,8 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         interface: usize,
         other: Option<(usize, Sys::Region)>,
     ) -> Result<usize, Error> {
-        let (t, x) = (self.time.value, &self.state.x);
-        self.progress.window.pass(t, self.tau);
-        let step = Taylor::step_number(&self.progress);
-        self.crowd.count::<Sys, N>(step, interface, t, x)?;
+        let (time, x) = (self.time, &self.state.x);
+        self.accumulation.count::<Sys, N>(interface, time, x)?;
         self.fresh = Some(interface);
         self.crossing = Some(Crossing {
             from: self.region,
@@ -159,7 +157,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             fresh: self.fresh,
             statistics: self.statistics,
         };
-        let result = run_segment(&mut walk, &mut self.crowd);
+        let result = run_segment(&mut walk, &mut self.accumulation);
         (self.time, self.state, self.region) = (walk.time, walk.state, walk.region);
         (self.progress, self.statistics) = (walk.progress, walk.statistics);
         let crossed = matches!(result, Ok(ControlFlow::Continue(())));

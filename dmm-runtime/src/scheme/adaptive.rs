@@ -3,7 +3,7 @@
 use crate::error::{Error, StepFailure};
 use crate::linear::is_finite;
 use crate::observer::Observer;
-use crate::scheme::drive::{Window, check_tolerance};
+use crate::scheme::drive::check_tolerance;
 use crate::scheme::pace::Pacer;
 use crate::scheme::{Composed, Drive, Maps, OneStep, Step, Stuck, Symmetric};
 use crate::statistics::Statistics;
@@ -33,12 +33,13 @@ pub struct Adaptive<Sch> {
 }
 
 /// The progress of steps of varying size.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Progress {
     pub(crate) end: f64,
     /// The step that was last wanted.
     pub(crate) step: f64,
-    pub(crate) window: Window,
+    /// The largest size of each component so far.
+    pub(crate) sizes: Vec<f64>,
 }
 
 impl Adaptive<Symmetric> {
@@ -61,8 +62,13 @@ impl<const ORDER: usize> Adaptive<Composed<ORDER>> {
 
 impl<Sch: OneStep> Adaptive<Sch> {
     /// What the tolerance asks for.
-    pub(crate) fn pacer<const N: usize>(&self) -> Pacer<N> {
-        Pacer::new(Sch::ORDER, self.tolerance)
+    pub(crate) fn pacer<const N: usize>(&self, progress: &Progress) -> Pacer<N> {
+        Pacer::new(Sch::ORDER, self.tolerance, &progress.sizes)
+    }
+
+    /// The part of the radius of convergence that a step takes.
+    pub(crate) fn fraction(&self) -> f64 {
+        self.tolerance.powf(1.0 / (Sch::ORDER + 1) as f64)
     }
 }
 
@@ -76,11 +82,6 @@ impl<Sch: OneStep> Maps for Adaptive<Sch> {
     fn typical_step(&self, progress: &Progress) -> f64 {
         progress.step
     }
-
-    fn leave(progress: &mut Progress, t: f64) {
-        let step = progress.step;
-        progress.window.pass(t, step);
-    }
 }
 
 impl<Sch: OneStep> Drive for Adaptive<Sch> {
@@ -90,16 +91,12 @@ impl<Sch: OneStep> Drive for Adaptive<Sch> {
         check_tolerance(self.tolerance)
     }
 
-    fn progress(&self, t0: f64, t_end: f64) -> Progress {
+    fn progress(&self, _t0: f64, t_end: f64) -> Progress {
         Progress {
             end: t_end,
             step: 0.0,
-            window: Window::new(t0),
+            sizes: Vec::new(),
         }
-    }
-
-    fn step_number(progress: &Progress) -> u64 {
-        progress.window.number
     }
 
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(
@@ -117,7 +114,7 @@ impl<Sch: OneStep> Drive for Adaptive<Sch> {
 
     fn reach<F, const N: usize, const M: usize>(
         &self,
-        _progress: &Progress,
+        progress: &Progress,
         flow: &F,
         (mut t, mut x): (f64, Vector<f64, N>),
         to: f64,
@@ -125,9 +122,10 @@ impl<Sch: OneStep> Drive for Adaptive<Sch> {
     where
         F: Flow<f64, N, M>,
     {
-        let mut pacer = self.pacer();
+        let mut pacer = self.pacer(progress);
+        let mut before = 0.0;
         while t < to {
-            let wanted = 1.0 / pacer.rate(flow, t, &x);
+            let wanted = 1.0 / pacer.expand(flow, t, &x, before).rate;
             let end = match t + wanted < to {
                 true => t + wanted,
                 // NaN too: the step then fails
@@ -148,6 +146,7 @@ impl<Sch: OneStep> Drive for Adaptive<Sch> {
             }
             x += increment;
             t = end;
+            before = tau;
         }
         Ok(x)
     }

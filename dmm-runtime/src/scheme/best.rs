@@ -115,10 +115,6 @@ impl Drive for Best {
         }
     }
 
-    fn step_number(progress: &Progress) -> u64 {
-        Taylor::step_number(&progress.series)
-    }
-
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(
         walk: &mut Walk<'_, Sys, Self, Loc, Obs, N>,
         flow: &F,

@@ -27,9 +27,6 @@ pub trait Drive: Clone + Sync {
     /// The beginning of a run.
     fn progress(&self, t0: f64, t_end: f64) -> Self::Progress;
 
-    /// A number that transitions within one step have in common.
-    fn step_number(progress: &Self::Progress) -> u64;
-
     /// Steps in one region until its boundary or the end time is reached.
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(
         walk: &mut Walk<'_, Sys, Self, Loc, Obs, N>,
@@ -64,8 +61,8 @@ pub trait Maps: Drive {
     /// The size of the present steps, of which one may be a part.
     fn typical_step(&self, progress: &Self::Progress) -> f64;
 
-    /// Notes that the walk has left the steps' ends, for a transition at `t`.
-    fn leave(progress: &mut Self::Progress, t: f64);
+    /// Notes that the walk has left the steps' ends, for a transition.
+    fn leave(_progress: &mut Self::Progress) {}
 }
 
 impl<Sch: OneStep> Maps for Sch {
@@ -79,34 +76,8 @@ impl<Sch: OneStep> Maps for Sch {
         progress.grid.step_size
     }
 
-    fn leave(progress: &mut Uniform, _t: f64) {
+    fn leave(progress: &mut Uniform) {
         progress.at_node = false;
-    }
-}
-
-/// Steps of a scheme's own choice by number, for the transitions within one to be counted.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Window {
-    /// Transitions before this time belong to the step.
-    end: f64,
-    /// Its number.
-    pub(crate) number: u64,
-}
-
-impl Window {
-    /// Before the first step.
-    pub(crate) fn new(t0: f64) -> Self {
-        Self { end: t0, number: 0 }
-    }
-
-    /// Notes a transition at `t` in a step over `tau`.
-    pub(crate) fn pass(&mut self, t: f64, tau: f64) {
-        if t >= self.end {
-            *self = Self {
-                end: t + tau,
-                number: self.number + 1,
-            };
-        }
     }
 }
 
@@ -165,10 +136,6 @@ impl<Sch: OneStep> Drive for Sch {
             node: 1,
             at_node: true,
         }
-    }
-
-    fn step_number(progress: &Uniform) -> u64 {
-        progress.node
     }
 
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(

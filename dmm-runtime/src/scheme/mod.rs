@@ -22,7 +22,7 @@ pub use best::Best;
 pub use composed::Composed;
 pub use compositions::Composition;
 pub(crate) use drive::{Drive, Maps, Stuck};
-pub(crate) use pace::Pacer;
+pub(crate) use pace::{COEFFICIENTS, Expansion, Pacer};
 pub use symmetric::Symmetric;
 pub use taylor::Taylor;
 

@@ -7,15 +7,35 @@
 //!
 //! τ⁻² = (‖c_p‖^{2/p} + ‖c_{p+1}‖^{2/(p+1)})/2 · tol^{−2/(p+1)}.
 //!
+//! The size of a component is the largest that it has had, so that a zero of it does not ask for
+//! short steps. Where everything has become small, near an equilibrium, that would allow steps in
+//! which the scheme does not follow the solution at all. So no step is longer than a part of the
+//! radius of convergence relative to the *present* size Σ |cⱼ| hʲ over j ≤ p of each component,
+//! with the step h before.
+//!
 //! Where coefficients leave the range of doubles, they are taken in another unit of time; see
 //! [`crate::series::radius`].
 
 use crate::series::InUnits;
-use crate::series::radius::{LARGEST, MOST_UNITS, SMALLEST, is_polynomial, unit_for};
+use crate::series::radius::{LARGEST, MOST_UNITS, REST, SMALLEST, is_polynomial, unit_for};
 use crate::system::{Flow, Vector};
 
 /// Coefficients: enough for order 8.
-const COEFFICIENTS: usize = 10;
+pub(crate) const COEFFICIENTS: usize = 10;
+/// The part of the radius of convergence relative to the present sizes that a step may take.
+const RESOLVED: f64 = 0.5;
+
+/// The Taylor coefficients of a solution at a point, and the rate 1/τ that is asked for there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expansion<const N: usize> {
+    pub(crate) rate: f64,
+    /// Whether the state is zero and stays so, as far as doubles tell.
+    pub(crate) is_at_rest: bool,
+    /// Those of powers of h/σ, by component.
+    pub(crate) coefficients: [[f64; COEFFICIENTS]; N],
+    /// σ
+    pub(crate) unit: f64,
+}
 
 /// A tolerance, for a scheme of order p.
 #[derive(Clone, Copy, Debug)]
@@ -38,33 +58,85 @@ struct Pace {
 }
 
 impl<const N: usize> Pacer<N> {
-    /// At the start of a run.
-    pub(crate) fn new(order: usize, tolerance: f64) -> Self {
+    /// At the start of a segment of a run in which components have had these sizes.
+    pub(crate) fn new(order: usize, tolerance: f64, sizes: &[f64]) -> Self {
         Self {
             order,
             factor: tolerance.powf(-1.0 / (order + 1) as f64),
-            size: Vector::zeros(),
+            size: Vector::from_fn(|i, _| sizes.get(i).copied().unwrap_or_default()),
             unit: 1.0,
         }
     }
 
-    /// The rate that is asked for at (t, x); not finite where the field is not.
-    pub(crate) fn rate<const M: usize, F: Flow<f64, N, M>>(
+    /// The largest size of each component so far.
+    pub(crate) fn sizes(&self) -> &[f64] {
+        self.size.as_slice()
+    }
+
+    /// The solution at (t, x), after a step over `before`, or 0; the rate is not finite where the
+    /// field is not.
+    pub(crate) fn expand<const M: usize, F: Flow<f64, N, M>>(
         &mut self,
         flow: &F,
         t: f64,
         x: &Vector<f64, N>,
-    ) -> f64 {
-        let mut pace = self.in_units(flow, t, x);
+        before: f64,
+    ) -> Expansion<N> {
+        let (mut pace, mut coefficients) = self.in_units(flow, t, x);
+        let sizes = coefficients.iter().flatten();
+        if sizes.fold(0.0, |sum, c| sum + c.abs()) <= REST {
+            return Expansion {
+                rate: 0.0,
+                is_at_rest: true,
+                coefficients: coefficients.map(|c| {
+                    let mut constant = [0.0; COEFFICIENTS];
+                    constant[0] = c[0];
+                    constant
+                }),
+                unit: self.unit,
+            };
+        }
         for _ in 0..MOST_UNITS {
             let unit = unit_for(self.unit / pace.rate);
             if !pace.is_lost || unit == self.unit {
                 break;
             }
             self.unit = unit;
-            pace = self.in_units(flow, t, x);
+            (pace, coefficients) = self.in_units(flow, t, x);
         }
-        pace.rate / self.unit * self.factor
+        let by_tolerance = pace.rate * self.factor;
+        let by_radius = self.present_rate(&coefficients, before / self.unit) / RESOLVED;
+        // NaN is kept
+        let rate = if by_radius > by_tolerance {
+            by_radius
+        } else {
+            by_tolerance
+        };
+        Expansion {
+            rate: rate / self.unit,
+            is_at_rest: false,
+            coefficients,
+            unit: self.unit,
+        }
+    }
+
+    /// 1 over the radius of convergence relative to the present size of each component.
+    fn present_rate(&self, c: &[[f64; COEFFICIENTS]; N], before: f64) -> f64 {
+        let p = self.order;
+        let mut rate = 0.0f64;
+        if before == 0.0 {
+            return rate;
+        }
+        for c in c {
+            let below = c[..=p].iter().rev();
+            let size = below.fold(0.0, |sum, c| sum * before + c.abs());
+            let inverse = 1.0 / size;
+            if !inverse.is_finite() {
+                continue;
+            }
+            rate = rate.max((c[p + 1].abs() * inverse).powf(1.0 / (p + 1) as f64));
+        }
+        rate
     }
 
     /// The same in the unit of time, but for the tolerance.
@@ -73,7 +145,7 @@ impl<const N: usize> Pacer<N> {
         flow: &F,
         t: f64,
         x: &Vector<f64, N>,
-    ) -> Pace {
+    ) -> (Pace, [[f64; COEFFICIENTS]; N]) {
         let p = self.order;
         let mut series = F::series::<COEFFICIENTS>();
         for (component, &x) in series.as_mut().iter_mut().zip(x) {
@@ -83,7 +155,8 @@ impl<const N: usize> Pacer<N> {
         for order in 0..=p {
             flow.advance(InUnits { order, unit }, t, &mut series);
         }
-        let c = &series.as_ref()[..N];
+        let coefficients: [[f64; COEFFICIENTS]; N] = std::array::from_fn(|i| series.as_ref()[i]);
+        let c = &coefficients[..];
         self.grow(c);
         let square = |k: usize| self.root(c, k, 2.0);
         let in_range = |&k: &usize| (SMALLEST..LARGEST).contains(&self.largest(c, k));
@@ -101,7 +174,7 @@ impl<const N: usize> Pacer<N> {
             None if (1..=p + 1).all(|k| self.largest(c, k) == 0.0) => (0.0, false),
             None => (f64::NAN, false),
         };
-        Pace { rate, is_lost }
+        (Pace { rate, is_lost }, coefficients)
     }
 
     /// The largest |cₖ| relative to the size of its component.
@@ -137,21 +210,43 @@ impl<const N: usize> Pacer<N> {
         (largest * square.sqrt()).powf(power / k as f64)
     }
 
-    /// Lets sizes grow with the components; one that begins at zero is as large as its slope
-    /// makes it within the time in which the whole state changes.
+    /// Lets sizes grow with the components. One that begins at or near zero counts as a part of
+    /// what it changes by within the time in which the solution does.
     fn grow(&mut self, c: &[[f64; COEFFICIENTS]]) {
-        let largest = |k: usize| c.iter().fold(0.0f64, |largest, c| largest.max(c[k].abs()));
-        let begins = self.size.iter().any(|&size| size == 0.0);
-        let time = match begins && largest(1) > 0.0 {
-            true => largest(0) / largest(1),
-            false => 0.0,
-        };
+        const PART: f64 = 0.1;
+        /// Sizes this many times as large as the present ones are forgotten.
+        const FORGOTTEN: f64 = 1e100;
+        let time = self.time_of_change(c);
+        let mut present = 0.0f64;
         for (size, c) in self.size.iter_mut().zip(c) {
-            let now = match *size == 0.0 {
-                true => c[0].abs() + c[1].abs() * time,
-                false => c[0].abs(),
+            let later = c[1..].iter().rev();
+            let change = later.fold(0.0, |sum, c| (sum + c.abs()) * time);
+            let begins = if *size == 0.0 {
+                c[0].abs() + change
+            } else {
+                c[0].abs().max(PART * change)
             };
-            *size = size.max(now).max(f64::MIN_POSITIVE);
+            *size = size.max(begins).max(f64::MIN_POSITIVE);
+            present = present.max(begins / *size);
         }
+        if present > 0.0 && present < 1.0 / FORGOTTEN {
+            self.size *= present * FORGOTTEN;
+        }
+    }
+
+    /// The time in which the slope of the solution changes, by the root test on the coefficients
+    /// of each component relative to the first one; a unit of time for a straight line.
+    fn time_of_change(&self, c: &[[f64; COEFFICIENTS]]) -> f64 {
+        let mut rate = 0.0f64;
+        for c in c {
+            for k in 2..=self.order + 1 {
+                let part = (c[k] / c[1]).abs();
+                if part.is_finite() {
+                    rate = rate.max(part.powf(1.0 / (k - 1) as f64));
+                }
+            }
+        }
+        let time = 1.0 / rate;
+        if time.is_finite() { time } else { 1.0 }
     }
 }

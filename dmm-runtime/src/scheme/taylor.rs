@@ -4,7 +4,7 @@ use crate::error::{Error, StepFailure};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
-use crate::scheme::drive::{Window, check_tolerance};
+use crate::scheme::drive::check_tolerance;
 use crate::scheme::{Drive, Stuck};
 use crate::series::jet::Jet;
 use crate::series::radius::OtherUnit;
@@ -124,7 +124,6 @@ pub struct Progress {
     pub(crate) step: f64,
     /// The unit of time of the coefficients.
     pub(crate) unit: f64,
-    pub(crate) window: Window,
 }
 
 /// A segment with P coefficients.
@@ -226,7 +225,7 @@ impl Drive for Taylor {
         Some(*self)
     }
 
-    fn progress(&self, t0: f64, t_end: f64) -> Progress {
+    fn progress(&self, _t0: f64, t_end: f64) -> Progress {
         Progress {
             end: t_end,
             fraction: self.fraction(),
@@ -234,12 +233,7 @@ impl Drive for Taylor {
             finest: self.finest(),
             step: 0.0,
             unit: 1.0,
-            window: Window::new(t0),
         }
-    }
-
-    fn step_number(progress: &Progress) -> u64 {
-        progress.window.number
     }
 
     fn segment<Sys, Loc, Obs, F, const N: usize, const M: usize>(

@@ -241,7 +241,7 @@ impl<F: Flow<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P: usi
 
     /// xₖ by component.
     #[inline(always)]
-    pub(super) fn coefficients(&self) -> &[[f64; P]] {
+    pub(crate) fn coefficients(&self) -> &[[f64; P]] {
         &self.solution.as_ref()[..N]
     }
 

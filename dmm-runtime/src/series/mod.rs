@@ -168,11 +168,11 @@ pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]
 pub fn square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
     let k = k.get();
     if k == 0 {
-        return u[0] * u[0];
+        return u[0].squared();
     }
     let mut sum = pairs(k, u);
     if k.is_multiple_of(2) {
-        sum = S::from_f64(2.0).fused(sum, u[k / 2] * u[k / 2]);
+        sum = S::from_f64(2.0).fused(sum, u[k / 2].squared());
     } else {
         sum += sum;
     }
@@ -194,6 +194,9 @@ fn pairs<S: Scalar, const P: usize>(k: usize, u: &[S; P]) -> S {
 #[inline(always)]
 pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
     let k = k.get();
+    if k == 0 {
+        return S::from_f64(0.5) * u[0].squared();
+    }
     let mut sum = if k.is_multiple_of(2) {
         u[k / 2] * S::from_f64(0.5) * u[k / 2]
     } else {

@@ -8,6 +8,7 @@
 use super::Unroll;
 use super::jet::Jet;
 use super::polynomial::{inverse_exponent, inverse_root};
+
 use crate::system::Flow;
 
 /// The unit of time that coefficients are in range in, where they are not in the unit 1.
@@ -69,6 +70,12 @@ impl<F: Flow<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P: usi
     #[cold]
     fn first_step(&mut self, flow: &F, t: f64, fraction: f64) -> Result<f64, OtherUnit> {
         let order = self.order();
+        if (0..=order).all(|k| self.largest(k) <= REST) {
+            for c in &mut self.solution.as_mut()[..N] {
+                c[1..].fill(0.0);
+            }
+            return Ok(f64::INFINITY);
+        }
         let mut usable = self.usable();
         for _ in 0..MOST_UNITS {
             let Some(k) = usable.filter(|&k| k < order) else {
@@ -168,6 +175,10 @@ pub(crate) const SMALLEST_DECISIVE: f64 = 1e-150;
 pub(crate) const LARGEST_DECISIVE: f64 = 1e150;
 /// The largest rate whose power of the highest order is in range.
 pub(crate) const FASTEST: f64 = 1e9;
+
+/// Where neither the state nor its derivatives are larger than this it is at rest: what they are
+/// would soon be lost to underflow.
+pub(crate) const REST: f64 = 1e-300;
 
 /// The most units to try: each is nearer to the solution's by the powers of a few coefficients.
 pub(crate) const MOST_UNITS: u32 = 8;

@@ -104,6 +104,53 @@ impl<Sch: OneStep, F, const N: usize> Crossing<'_, Sch, F, N> {
             gradient * self.sign,
         )
     }
+
+    /// Widens the bracket, which is one of the dense output of a step over `tau`, until g ≥ 0 at
+    /// its lower end and g ≤ 0 at its upper end on the one-step map, which is close to it: false if
+    /// g returns before, nothing if it has no finite value. A `fresh` step starts at a root that
+    /// does not count.
+    pub(crate) fn bracket_on_map<const M: usize>(
+        &mut self,
+        tau: f64,
+        fresh: bool,
+        statistics: &mut Statistics,
+    ) -> Option<bool>
+    where
+        F: Flow<f64, N, M>,
+    {
+        /// Of the step.
+        const NARROW: f64 = 1e-12;
+        /// Halvings of the step in search of the inside.
+        const MOST_HALVINGS: u32 = 60;
+        let narrow = (self.upper - self.lower).max(NARROW * tau);
+        let mut width = narrow;
+        while self.upper < tau && value_at(self, self.upper, statistics)?.0 > 0.0 {
+            self.upper = (self.upper + width).min(tau);
+            width *= 4.0;
+        }
+        if self.upper >= tau && value_at(self, tau, statistics)?.0 > 0.0 {
+            return Some(false);
+        }
+        width = narrow;
+        while self.lower > 0.0 && value_at(self, self.lower, statistics)?.0 <= 0.0 {
+            self.lower = (self.lower - width).max(0.0);
+            width *= 4.0;
+        }
+        if self.lower > 0.0 || !fresh {
+            return Some(true);
+        }
+        let mut middle = self.upper;
+        for _ in 0..MOST_HALVINGS {
+            middle *= 0.5;
+            if value_at(self, middle, statistics)?.0 > 0.0 {
+                self.lower = middle;
+                return Some(true);
+            }
+            self.upper = middle;
+        }
+        // an excursion that no point resolves
+        None
+    }
 }
 
 /// Newton's method in (t̂*, x̂*) together with generated derivatives, safeguarded by the

@@ -1,15 +1,16 @@
 //! A segment by steps that a tolerance decides.
 
 use crate::error::{Error, StepFailure};
+use crate::events::Path;
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
-use crate::scheme::{Adaptive, Maps, OneStep, Pacer, Step};
+use crate::scheme::{Adaptive, COEFFICIENTS, Expansion, Maps, OneStep, Pacer, Step};
 use crate::system::{Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
-use crate::walk::interfaces::{advance, is_near, readings, watches};
-use crate::walk::{SegmentEnd, Walk};
+use crate::walk::interfaces::{Dense, advance, readings, watches};
+use crate::walk::{Decay, SegmentEnd, Walk};
 
 /// A step is too long if at its end steps this many times shorter are asked for.
 const TOO_LONG: f64 = 2.0;
@@ -25,8 +26,8 @@ const NEARLY: f64 = 1.000_001;
 struct Run<T, const N: usize> {
     memory: T,
     pacer: Pacer<N>,
-    /// 1/τ of the next step.
-    rate: f64,
+    /// The solution at the start of the next step.
+    expansion: Expansion<N>,
 }
 
 /// A step that was made.
@@ -34,8 +35,32 @@ struct Made<const N: usize> {
     increment: Vector<f64, N>,
     tau: f64,
     time: Time,
-    /// The rate that is asked for at its end.
-    rate: f64,
+    /// The solution at its end.
+    expansion: Expansion<N>,
+}
+
+/// Coefficients of the dense output of a step.
+const DENSE: usize = COEFFICIENTS + 1;
+
+/// The dense output of a step of order p: the Taylor polynomial of order p + 1 at its start, and a
+/// term of the next order that leads to the end of the step.
+fn dense<const N: usize>(
+    expansion: &Expansion<N>,
+    order: usize,
+    increment: &Vector<f64, N>,
+    tau: f64,
+) -> [[f64; DENSE]; N] {
+    let s = tau / expansion.unit;
+    let last = order + 2;
+    std::array::from_fn(|i| {
+        let mut dense = [0.0; DENSE];
+        dense[..last].copy_from_slice(&expansion.coefficients[i][..last]);
+        let reached = dense[1..last].iter().rev().fold(0.0, |sum, c| sum * s + c) * s;
+        let power = s.powi(last as i32);
+        let rest = (increment[i] - reached) / power;
+        dense[last] = if rest.is_finite() { rest } else { 0.0 };
+        dense
+    })
 }
 
 impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Adaptive<Sch>, Loc, Obs, N>
@@ -52,26 +77,38 @@ where
     ) -> Result<SegmentEnd, Error> {
         let mut level = Level::enter(flow, self.time, &self.state);
         let mut watches = watches(flow, self.time.value, &self.state.x, self.fresh);
-        let mut pacer = self.scheme.pacer();
+        let mut pacer = self.scheme.pacer(&self.progress);
+        let (t, before) = (self.time.value, self.progress.step);
         let mut run = Run {
             memory: self.begin(flow),
-            rate: pacer.rate(flow, self.time.value, &self.state.x),
+            expansion: pacer.expand(flow, t, &self.state.x, before),
             pacer,
         };
+        let decay = Decay::new(self.scheme.fraction());
         while Time::new(self.progress.end).since(self.time) > 0.0 {
             let made = self.shorten(flow, &mut run)?;
             let Made {
                 increment,
                 tau,
                 time,
-                rate,
+                expansion,
             } = made;
-            let x1 = self.state.x + increment;
-            let values = readings::<N, M, F>(flow, time.value, &x1);
-            if is_near(&watches, &values)
-                && let Some(end) = self.look(flow, &level, &mut watches, tau, &increment)?
-            {
-                return Ok(end);
+            self.progress.sizes.clear();
+            self.progress.sizes.extend_from_slice(run.pacer.sizes());
+            if !watches.as_ref().is_empty() {
+                let coefficients = dense(&run.expansion, Sch::ORDER, &increment, tau);
+                let dense = Dense {
+                    path: Path {
+                        t0: self.time.value,
+                        unit: run.expansion.unit,
+                        coefficients: std::array::from_fn(|i| &coefficients[i][..]),
+                    },
+                    tau,
+                    decay,
+                };
+                if let Some(end) = self.look(flow, &level, &mut watches, &dense)? {
+                    return Ok(end);
+                }
             }
             self.outputs(flow, tau, time)?;
             level.rescale(flow, time.value, &self.state);
@@ -81,7 +118,7 @@ where
             if self.tell_point().is_break() {
                 return Ok(SegmentEnd::Stopped);
             }
-            run.rate = rate;
+            run.expansion = expansion;
         }
         Ok(SegmentEnd::Finished)
     }
@@ -97,19 +134,19 @@ where
         flow: &F,
         run: &mut Run<Sch::Memory<N>, N>,
     ) -> Result<Made<N>, Error> {
-        let mut wanted = 1.0 / run.rate;
+        let mut wanted = 1.0 / run.expansion.rate;
         let mut failure = StepFailure::NotFinite;
         for _ in 0..=MOST_REJECTIONS {
             match self.attempt(flow, run, wanted) {
-                Ok(made) if made.rate * made.tau <= TOO_LONG => {
-                    self.progress.step = wanted;
+                Ok(made) if made.expansion.rate * made.tau <= TOO_LONG => {
+                    self.progress.step = made.tau;
                     return Ok(made);
                 }
                 Ok(_) => {}
                 Err(found) => failure = found,
             }
             self.statistics.rejected += 1;
-            wanted *= SHORTER;
+            wanted = wanted.min(Time::new(self.progress.end).since(self.time)) * SHORTER;
             run.memory = self.begin(flow);
         }
         Err(self.failure(failure, wanted))
@@ -138,15 +175,19 @@ where
             tau,
         };
         let map = self.scheme.map();
-        let increment = map.varied_step(&step, &mut run.memory, &mut self.statistics)?;
+        let increment = if run.expansion.is_at_rest {
+            Vector::zeros()
+        } else {
+            map.varied_step(&step, &mut run.memory, &mut self.statistics)?
+        };
         let x1 = self.state.x + increment;
-        let rate = run.pacer.rate(flow, time.value, &x1);
-        match is_finite(&x1) && rate.is_finite() {
+        let expansion = run.pacer.expand(flow, time.value, &x1, tau);
+        match is_finite(&x1) && expansion.rate.is_finite() {
             true => Ok(Made {
                 increment,
                 tau,
                 time,
-                rate,
+                expansion,
             }),
             false => Err(StepFailure::NotFinite),
         }

@@ -22,8 +22,10 @@ use crate::transition::Locator;
 use crate::walk::expand::Here;
 use crate::walk::{SegmentEnd, Walk};
 
-/// Corrections of a crossing.
+/// Corrections of a crossing next to it.
 const MOST_CORRECTIONS: u32 = 12;
+/// Iterations towards a crossing, of which some may halve its bracket.
+const MOST_HALVINGS: u32 = 100;
 /// A correction of the time smaller than this part of the step is made along the field.
 const SMALL: f64 = 1e-8;
 
@@ -31,8 +33,12 @@ const SMALL: f64 = 1e-8;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     pub(super) interface: usize,
+    /// The sign of g in the region that is left.
+    pub(super) sign: f64,
     /// About how long after the start.
     pub(super) elapsed: f64,
+    /// How long after the start g is positive, and negative, with one root in between.
+    pub(super) bracket: (f64, f64),
     /// g and dg/dt at the start of the step, unless `elapsed` is a root to rounding.
     pub(super) start: Option<(f64, f64)>,
 }
@@ -118,7 +124,6 @@ where
         self.time = time;
         self.statistics.steps += 1;
         self.progress.step = tau;
-        self.progress.window.pass(time.value, tau);
         if self.tell_point().is_break() {
             return Ok(SegmentEnd::Stopped);
         }
@@ -137,7 +142,8 @@ where
     ) -> Option<(Time, State<N>, f64)> {
         let interface = found.interface;
         let mut elapsed = found.elapsed;
-        for _ in 0..MOST_CORRECTIONS {
+        let (mut lower, mut upper) = found.bracket;
+        for _ in 0..MOST_HALVINGS {
             let time = self.time.after(elapsed);
             let state = self.state.after(&jet.increment(elapsed));
             let approach = Approach::at(flow, interface, time, &state);
@@ -151,13 +157,20 @@ where
                 }
                 None => -value / rate,
             };
-            if !delta.is_finite() {
-                return None;
-            }
             if delta.abs() <= SMALL * tau {
                 return self.settle_on(flow, level, interface, (time, state), approach);
             }
-            elapsed = (elapsed + delta).clamp(0.0, tau);
+            if found.sign * value > 0.0 {
+                lower = elapsed;
+            } else {
+                upper = elapsed;
+            }
+            let next = elapsed + delta;
+            elapsed = if next >= lower && next <= upper {
+                next
+            } else {
+                f64::midpoint(lower, upper)
+            };
         }
         None
     }
@@ -178,6 +191,7 @@ where
         const SMALL: f64 = 1e-11;
         let corrects = self.scheme.corrects_level();
         let weights = Weights::new(&state.x, &(state.x - self.state.x));
+        let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
                 true => level.correction(flow, time, &state, &weights),
@@ -186,19 +200,29 @@ where
             let displacement = approach.remove(&mut time, &mut state, &off);
             let size = dot(&displacement, &displacement);
             approach = Approach::at(flow, interface, time, &state);
-            if size <= SMALL * SMALL * dot(&state.x, &state.x) {
-                approach.value = switching_in_pairs(flow, interface, time, &state);
-                let off = match corrects {
-                    true => {
-                        let (_, multiplier) = flow.multiplier(time.value, &state.x);
-                        let residual = level.residual(flow, time, &state);
-                        level.towards(&multiplier, &residual, &weights)
-                    }
-                    false => Vector::zeros(),
-                };
-                approach.remove(&mut time, &mut state, &off);
+            let small = SMALL * SMALL * dot(&state.x, &state.x);
+            // where g hardly changes, its rounding errors in doubles move the point further
+            if size <= small || 4.0 * size >= before {
+                break;
+            }
+            before = size;
+        }
+        for _ in 0..MOST_CORRECTIONS {
+            approach.value = switching_in_pairs(flow, interface, time, &state);
+            let off = match corrects {
+                true => {
+                    let (_, multiplier) = flow.multiplier(time.value, &state.x);
+                    let residual = level.residual(flow, time, &state);
+                    level.towards(&multiplier, &residual, &weights)
+                }
+                false => Vector::zeros(),
+            };
+            let displacement = approach.remove(&mut time, &mut state, &off);
+            let small = SMALL * SMALL * dot(&state.x, &state.x);
+            if dot(&displacement, &displacement) <= small {
                 return is_finite(&state.x).then_some((time, state, approach.rate));
             }
+            approach = Approach::at(flow, interface, time, &state);
         }
         None
     }

@@ -2,6 +2,9 @@
 //! radius of convergence as the tolerance allows.
 
 use crate::error::{Error, StepFailure};
+use crate::events::cubic::Glance;
+use crate::events::guard::NOISE;
+use crate::events::{Enclosed, Met, Path, Search};
 use crate::level::Level;
 use crate::linear::{dot, is_finite};
 use crate::observer::{Observer, Point};
@@ -16,8 +19,7 @@ use crate::system::{Boundary, Flow, Side, System};
 use crate::time::Time;
 use crate::transition::Locator;
 use crate::walk::arrive::Found;
-use crate::walk::cubic::Glance;
-use crate::walk::glance::{Glimpse, NOISE};
+use crate::walk::glance::Glimpse;
 use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between adaptions of the level's correction to the size of the state.
@@ -51,6 +53,7 @@ where
                 self.arrive::<P, M, F, U>(flow, &level, &jet, &found, tau)
             }
             Ended::Not(tau) => Err(self.failure(StepFailure::NotFinite, tau)),
+            Ended::Unknown { interface, tau } => Err(self.unknown(interface, tau)),
             Ended::Lost(OtherUnit(unit)) => {
                 self.progress.unit = unit;
                 self.fresh = self.fresh.filter(|_| here.steps == 0);
@@ -106,6 +109,7 @@ where
                     Ahead::Free => break (tau, time, state),
                     Ahead::Crossing(found) => return Ended::Before { found, tau, level },
                     Ahead::Undecided(shorter) => part = shorter,
+                    Ahead::Unknown(interface) => return Ended::Unknown { interface, tau },
                 }
             };
             if self.observer.next_output().is_some() {
@@ -140,6 +144,9 @@ where
         (tau, time, state): (f64, Time, &State<N>),
         (fresh, part): (Option<usize>, Part),
     ) -> Ahead {
+        if !<F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE {
+            return self.first_enclosed::<P, M, F, U>(flow, jet, here, tau, (fresh, part));
+        }
         let field = flow.vector_field(time.value, &state.x);
         let glimpse = Glimpse {
             tau: jet.in_units(tau),
@@ -157,11 +164,13 @@ where
             let fresh = fresh == Some(interface);
             match glimpse.at(c, (value, slope), side.sign(), fresh) {
                 Glance::Out => {}
-                Glance::Once(elapsed) => {
+                Glance::Once { from, at } => {
                     near |= once.is_some();
                     once = Some(Found {
                         interface,
-                        elapsed: elapsed * jet.unit(),
+                        sign: side.sign(),
+                        elapsed: at * jet.unit(),
+                        bracket: (from * jet.unit(), tau),
                         start: Some((c[0], jet.in_units(c[1]))),
                     });
                 }
@@ -199,13 +208,13 @@ where
         jet.expand_switching(flow, t);
         // in units, like the coefficients
         let tau = jet.in_units(tau);
-        let mut first: Option<(usize, f64)> = None;
+        let mut first: Option<Found> = None;
+        let mut horizon = tau;
         for &(interface, side) in sides::<N, M, F>() {
             let sign = side.sign();
             let series = jet.switching(interface).map(|c| sign * c);
             if !series.iter().all(|c| c.is_finite()) {
-                // and so will the state be that the step leads to
-                return Ahead::Free;
+                return Ahead::Unknown(interface);
             }
             let size = flow.boundary().switching_size(interface, t, x);
             let noise = NOISE * f64::ROUNDING * size;
@@ -216,7 +225,6 @@ where
                 false => (&series[..], 1.0),
             };
             let (noise, band) = (noise * part, band * size * part);
-            let horizon = first.map_or(tau, |(_, elapsed)| elapsed);
             if band > noise && dips(series, horizon, band) {
                 return Ahead::Undecided(Part {
                     share: self.progress.finest,
@@ -229,16 +237,79 @@ where
             } = first_root(series, horizon, noise);
             self.statistics.grazes += u64::from(touches);
             if let Some((lower, upper)) = found {
-                first = Some((interface, root(series, lower, upper)));
+                horizon = root(series, lower, upper);
+                first = Some(Found {
+                    interface,
+                    sign,
+                    elapsed: horizon * jet.unit(),
+                    bracket: (lower * jet.unit(), upper * jet.unit()),
+                    start: None,
+                });
             }
         }
-        first.map_or(Ahead::Free, |(interface, elapsed)| {
-            Ahead::Crossing(Found {
+        first.map_or(Ahead::Free, Ahead::Crossing)
+    }
+
+    /// The first crossing of a step where the series of a switching function may converge more
+    /// slowly than that of the state: by enclosures of it along the solution's polynomial.
+    #[cold]
+    #[inline(never)]
+    fn first_enclosed<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
+        &mut self,
+        flow: &F,
+        jet: &Jet<F, U, N, M, P>,
+        here: &Here<N>,
+        tau: f64,
+        (fresh, part): (Option<usize>, Part),
+    ) -> Ahead {
+        let path = Path {
+            t0: here.time.value,
+            unit: jet.unit(),
+            coefficients: std::array::from_fn(|i| &jet.coefficients()[i][..]),
+        };
+        let guard = Enclosed::new(flow.boundary());
+        let mut first: Option<Found> = None;
+        let mut end = jet.in_units(tau);
+        for &(interface, side) in sides::<N, M, F>() {
+            let search = Search {
+                guard: &guard,
                 interface,
-                elapsed: elapsed * jet.unit(),
-                start: None,
-            })
-        })
+                sign: side.sign(),
+                path: &path,
+                end,
+                level: 0.0,
+            };
+            let fresh = fresh == Some(interface);
+            let (met, touches) = if part.is_finest {
+                search.first(fresh)
+            } else {
+                let boundary = flow.boundary();
+                let size = boundary.switching_size(interface, path.t0, &here.state.x);
+                search.first_clear(fresh, self.scheme.undecided() * size)
+            };
+            match met {
+                Met::Nothing => {}
+                Met::Crossing { lower, upper } => {
+                    end = search.root(lower, upper);
+                    first = Some(Found {
+                        interface,
+                        sign: side.sign(),
+                        elapsed: end * jet.unit(),
+                        bracket: (lower * jet.unit(), upper * jet.unit()),
+                        start: None,
+                    });
+                }
+                Met::Undecided(_) if part.is_finest => return Ahead::Unknown(interface),
+                Met::Undecided(_) => {
+                    return Ahead::Undecided(Part {
+                        share: self.progress.finest,
+                        is_finest: true,
+                    });
+                }
+            }
+            self.statistics.grazes += u64::from(touches);
+        }
+        first.map_or(Ahead::Free, Ahead::Crossing)
     }
 
     /// Serves the output times of a step over `tau` that ends at `end`.
@@ -311,6 +382,8 @@ enum Ahead {
     Crossing(Found),
     /// It comes so close to an interface that a shorter step has to decide.
     Undecided(Part),
+    /// Whether this interface is met cannot be decided.
+    Unknown(usize),
 }
 
 /// A part of the step that the tolerance allows.
@@ -351,6 +424,11 @@ enum Ended<const N: usize, const M: usize> {
     },
     /// With one of this size that cannot be made.
     Not(f64),
+    /// With one over `tau` of which it cannot be decided whether it meets an interface.
+    Unknown {
+        interface: usize,
+        tau: f64,
+    },
     /// With coefficients that are lost in the unit 1.
     Lost(OtherUnit),
 }

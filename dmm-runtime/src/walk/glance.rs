@@ -10,14 +10,13 @@
 //! does no harm, a is the largest of three: |g₄| h⁴, |g₅| h⁵/φ, and the difference of the
 //! coefficients of order 2 of g and H, which is Σ (j − 3) gⱼ hʲ.
 
+use crate::events::cubic::{Cubic, Doubt, Glance, Reading};
+use crate::events::guard::NOISE;
 use crate::scalar::Scalar;
 use crate::series::jet::FIRST;
-use crate::walk::cubic::{Cubic, Doubt, Glance, Reading};
 
 /// The estimate of the terms that are not known counts so many times.
 const MARGIN: f64 = 1.5;
-/// g this many rounding errors of its terms away from zero is not distinguished from it.
-pub(super) const NOISE: f64 = 16.0;
 
 /// A step as the interfaces see it.
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,19 @@
-//! The interfaces of a region over a step: watched cheaply, looked at closely where one is
-//! near, and crossed at the one that comes first.
+//! The interfaces of a region over a step of a one-step scheme: watched cheaply, searched for
+//! along the step's dense output where one is near, and crossed at the one that comes first.
 
 use crate::error::Error;
+use crate::events::cubic::Glance;
+use crate::events::{Enclosed, Guard, Met, Path, Search};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
-use crate::scheme::Maps;
+use crate::scheme::{Maps, OneStep, Step};
+use crate::series::jet::FIRST;
+use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Side, System, Vector};
-use crate::transition::watch::{Outcome, Watch};
+use crate::transition::watch::Watch;
 use crate::transition::{Crossing, Located, Locator, rate};
+use crate::walk::glance::{Decay, Glimpse};
 use crate::walk::{SegmentEnd, Walk};
 
 /// A watch for each interface that bounds the region of a flow.
@@ -23,6 +28,39 @@ pub(super) type Readings<F, const N: usize, const M: usize> =
 struct First<const N: usize> {
     interface: usize,
     located: Located<N>,
+}
+
+/// A step that has been made, with its dense output.
+pub(super) struct Dense<'a, const N: usize> {
+    pub(super) path: Path<'a, N>,
+    /// τ
+    pub(super) tau: f64,
+    /// How the coefficients of the path fall off.
+    pub(super) decay: Decay,
+}
+
+/// The cubic through both ends of a step, with the field at its start and the velocity ∂d/∂τ of
+/// the one-step map at its end: coefficients of powers of the time.
+pub(super) fn through_ends<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    map: &impl OneStep,
+    step: &Step<'_, F, N>,
+    increment: &Vector<f64, N>,
+) -> [[f64; 4]; N] {
+    let tau = step.tau;
+    let start = step.flow.vector_field(step.t0, step.x0);
+    let end = match map.correction(step, increment) {
+        Some(correction) => correction.velocity,
+        None => step
+            .flow
+            .vector_field(step.t0 + tau, &(step.x0 + increment)),
+    };
+    let inverse = 1.0 / tau;
+    std::array::from_fn(|i| {
+        let (chord, v0, v1) = (increment[i] * inverse, start[i], end[i]);
+        let square = (3.0 * chord - 2.0 * v0 - v1) * inverse;
+        let cube = (v0 + v1 - 2.0 * chord) * (inverse * inverse);
+        [step.x0[i], v0, square, cube]
+    })
 }
 
 /// A watch for each interface, from (t, x); `fresh` is the one that the solution is on.
@@ -55,10 +93,14 @@ pub(super) fn readings<const N: usize, const M: usize, F: Flow<f64, N, M>>(
 
 /// Whether a step that ends with these readings needs a closer look at an interface.
 #[inline]
-pub(super) fn is_near(watches: &impl AsRef<[Watch]>, readings: &impl AsRef<[f64]>) -> bool {
+pub(super) fn is_near(
+    watches: &impl AsRef<[Watch]>,
+    readings: &impl AsRef<[f64]>,
+    reach: f64,
+) -> bool {
     let mut near = false;
     for (watch, &value) in watches.as_ref().iter().zip(readings.as_ref()) {
-        near |= watch.is_near(value);
+        near |= watch.is_near(value, reach);
     }
     near
 }
@@ -85,74 +127,77 @@ where
     Loc: Locator,
     Obs: Observer<Sys::Region, N>,
 {
-    /// Looks closely at every interface over a step, and moves to the one crossed first.
-    #[cold]
+    /// Looks at every interface over a step, and moves to the one crossed first.
     pub(super) fn look<const M: usize, F: Flow<f64, N, M>>(
         &mut self,
         flow: &F,
         level: &Level<N, M>,
         watches: &mut Watches<F, N, M>,
-        tau: f64,
-        increment: &Vector<f64, N>,
+        dense: &Dense<'_, N>,
     ) -> Result<Option<SegmentEnd>, Error> {
+        let guard = Enclosed::new(flow.boundary());
         let mut first: Option<First<N>> = None;
-        for (watch, &(interface, side)) in watches.as_mut().iter_mut().zip(sides::<N, M, F>()) {
-            let found = self.look_closely(flow, watch, interface, side.sign(), tau, increment)?;
-            if let Some(found) = found
-                && first
-                    .as_ref()
-                    .is_none_or(|first| found.located.elapsed < first.located.elapsed)
-            {
-                first = Some(found);
+        let mut end = dense.tau;
+        for (watch, &(interface, side)) in watches.as_ref().iter().zip(sides::<N, M, F>()) {
+            let mut search = Search {
+                guard: &guard,
+                interface,
+                sign: side.sign(),
+                path: &dense.path,
+                end: dense.tau / dense.path.unit,
+                level: 0.0,
+            };
+            let bracket = match glance_at::<N, M, F>(&guard, &search, dense, watch.fresh) {
+                Glance::Out => continue,
+                Glance::Once { from, .. } => (from, search.end),
+                Glance::Near => {
+                    search.end = end / dense.path.unit;
+                    let (met, touches) = search.first(watch.fresh);
+                    self.statistics.grazes += u64::from(touches);
+                    match met {
+                        Met::Nothing => continue,
+                        Met::Crossing { lower, upper } => (lower, upper),
+                        Met::Undecided(_) => return Err(self.unknown(interface, dense.tau)),
+                    }
+                }
+            };
+            let unit = dense.path.unit;
+            let bracket = (bracket.0 * unit, (bracket.1 * unit).min(dense.tau));
+            let crossing = Crossing {
+                scheme: self.scheme.map(),
+                flow,
+                interface,
+                t0: self.time.value,
+                state: &self.state,
+                lower: bracket.0,
+                upper: bracket.1,
+                step_size: self.scheme.typical_step(&self.progress),
+                sign: side.sign(),
+            };
+            let statistics = &mut self.statistics;
+            let located = locate_in(crossing, self.locator, dense.tau, watch.fresh, statistics);
+            let failed = || Error::LocationFailed {
+                t: self.time.value,
+                x: self.state.x.iter().copied().collect(),
+                step_size: dense.tau,
+                interface: Sys::INTERFACES[interface],
+            };
+            let Some(found) = located.ok_or_else(failed)? else {
+                self.statistics.grazes += 1;
+                continue;
+            };
+            if first.is_none() || found.elapsed < end {
+                end = found.elapsed;
+                first = Some(First {
+                    interface,
+                    located: found,
+                });
             }
         }
         match first {
             Some(first) => self.cross(flow, level, &first).map(Some),
             None => Ok(None),
         }
-    }
-
-    fn look_closely<const M: usize, F: Flow<f64, N, M>>(
-        &mut self,
-        flow: &F,
-        watch: &Watch,
-        interface: usize,
-        sign: f64,
-        tau: f64,
-        increment: &Vector<f64, N>,
-    ) -> Result<Option<First<N>>, Error> {
-        let mut crossing = Crossing {
-            scheme: self.scheme.map(),
-            flow,
-            interface,
-            t0: self.time.value,
-            state: &self.state,
-            lower: 0.0,
-            upper: tau,
-            step_size: self.scheme.typical_step(&self.progress),
-            sign,
-        };
-        let located = match watch.examine(&crossing, increment, &mut self.statistics) {
-            Some(Outcome::Inside) => return Ok(None),
-            Some(Outcome::Grazed) => {
-                self.statistics.grazes += 1;
-                return Ok(None);
-            }
-            Some(Outcome::Crossed { lower, upper }) => {
-                (crossing.lower, crossing.upper) = (lower, upper);
-                self.locator.locate(&crossing, &mut self.statistics)
-            }
-            None => None,
-        };
-        let valid =
-            located.filter(|located| located.elapsed >= 0.0 && is_finite(&located.increment));
-        let located = valid.ok_or_else(|| Error::LocationFailed {
-            t: self.time.value,
-            x: self.state.x.iter().copied().collect(),
-            step_size: tau,
-            interface: Sys::INTERFACES[interface],
-        })?;
-        Ok(Some(First { interface, located }))
     }
 
     /// Moves to the interface.
@@ -166,11 +211,54 @@ where
         let time = self.time.after(located.elapsed);
         self.outputs(flow, located.elapsed, time)?;
         self.accept(flow, level, &located.increment, located.elapsed, time)?;
-        Sch::leave(&mut self.progress, time.value);
+        Sch::leave(&mut self.progress);
         if self.tell_point().is_break() {
             return Ok(SegmentEnd::Stopped);
         }
         let rate = rate(flow, interface, time.value, &self.state.x);
         Ok(SegmentEnd::Crossed { interface, rate })
     }
+}
+
+/// The crossing that the dense output of a step shows, on the one-step map: none if that comes as
+/// close to the interface as the dense output is to it, and returns. Nothing if it is not found.
+fn locate_in<Sch: OneStep, Loc: Locator, F: Flow<f64, N, M>, const N: usize, const M: usize>(
+    mut crossing: Crossing<'_, Sch, F, N>,
+    locator: &Loc,
+    tau: f64,
+    fresh: bool,
+    statistics: &mut Statistics,
+) -> Option<Option<Located<N>>> {
+    if !crossing.bracket_on_map(tau, fresh, statistics)? {
+        return Some(None);
+    }
+    let located = locator.locate(&crossing, statistics);
+    let valid = located.filter(|located| located.elapsed >= 0.0 && is_finite(&located.increment));
+    valid.map(Some)
+}
+
+/// What the ends of a step tell of an interface whose switching function follows the state.
+fn glance_at<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    guard: &Enclosed<'_, F::Boundary, N>,
+    search: &Search<'_, N>,
+    dense: &Dense<'_, N>,
+    fresh: bool,
+) -> Glance {
+    if !<F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE {
+        return Glance::Near;
+    }
+    let &Search {
+        interface,
+        sign,
+        path,
+        end,
+        ..
+    } = search;
+    let c: [f64; FIRST] = guard.first(interface, path).map(|c| sign * c);
+    let (value, slope) = guard.point(interface, path, end);
+    let glimpse = Glimpse {
+        tau: end,
+        decay: dense.decay,
+    };
+    glimpse.at(&c, (sign * value, sign * slope), 1.0, fresh)
 }

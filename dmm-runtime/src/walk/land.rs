@@ -27,6 +27,8 @@ pub(super) struct Found {
     pub(super) elapsed: f64,
     /// Whether that is more than an estimate.
     pub(super) precise: bool,
+    /// How long after the start of the step g is positive, and negative, with one root in between.
+    pub(super) bracket: (f64, f64),
 }
 
 impl<Sys, Loc, Obs, const N: usize> Walk<'_, Sys, Best, Loc, Obs, N>
@@ -52,8 +54,10 @@ where
             step_size: tau,
             interface: Sys::INTERFACES[interface],
         };
-        let meeting = self.meet(flow, ladder, found, tau);
-        let (mut time, mut state) = meeting.ok_or_else(|| failed(self))?;
+        let (mut time, mut state) = match self.meet(flow, ladder, found, tau) {
+            Some(meeting) => meeting,
+            None => self.halve(flow, ladder, found),
+        };
         let mut rate = slide(flow, interface, &mut time, &mut state);
         if let Some(held) = self.held(flow, level, time, state) {
             state = held;
@@ -66,15 +70,14 @@ where
         self.state = state;
         self.time = time;
         self.statistics.steps += 1;
-        self.progress.series.window.pass(time.value, tau);
         if self.tell_point().is_break() {
             return Ok(SegmentEnd::Stopped);
         }
         Ok(SegmentEnd::Crossed { interface, rate })
     }
 
-    /// Where the flow meets an interface, but for a slide along the field; nothing if the root of
-    /// g is not found where it has to be.
+    /// Where the flow meets an interface, but for a slide along the field; nothing if a root of g is
+    /// not found within the bracket: it may be another one.
     #[inline(always)]
     fn meet<const M: usize, F: Flow<f64, N, M>>(
         &self,
@@ -103,13 +106,43 @@ where
                 false => -value * along[0] / (along[0] * along[0] - value * along[1]),
             };
             let rest = fall(value, &along, start, tau)?;
+            elapsed = offset + rest;
+            let (lower, upper) = found.bracket;
+            if elapsed < lower || elapsed > upper {
+                return None;
+            }
             if ladder.is_next_to(rest) {
-                ladder.keep(found.side, offset + rest);
+                ladder.keep(found.side, elapsed);
                 return Some((time.after(rest), short.after(rest)));
             }
-            elapsed = (offset + rest).clamp(0.0, tau);
         }
         None
+    }
+
+    /// The same by halving the bracket.
+    #[cold]
+    #[inline(never)]
+    fn halve<const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        ladder: &mut Ladder<N>,
+        found: Found,
+    ) -> (Time, State<N>) {
+        let (interface, side) = sides::<N, M, F>()[found.side];
+        let (mut lower, mut upper) = found.bracket;
+        loop {
+            let middle = f64::midpoint(lower, upper);
+            let (time, state) = (self.time.after(middle), ladder.reach(&self.state, middle));
+            if middle <= lower || middle >= upper {
+                return (time, state);
+            }
+            let (value, ..) = switching(flow, interface, time, &state);
+            if side.sign() * value > 0.0 {
+                lower = middle;
+            } else {
+                upper = middle;
+            }
+        }
     }
 }
 
@@ -165,7 +198,9 @@ fn fall<const T: usize>(c: f64, along: &[f64; T], start: f64, scale: f64) -> Opt
         value = value.fused(d, c);
         let delta = value * slope / (slope * slope - value * half_bend);
         d -= delta;
-        if delta.abs() <= LAST * scale {
+        // the next root is about slope / half_bend away
+        let is_small = delta.abs() <= LAST * scale;
+        if is_small && (delta * half_bend).abs() <= LAST * slope.abs() {
             return Some(d);
         }
     }

@@ -9,6 +9,7 @@
 //! a Taylor step.
 
 use crate::error::{Error, StepFailure};
+use crate::events::cubic::{Cubic, Doubt, Glance, Reading};
 use crate::exact::{FIRST, Ladder};
 use crate::level::Level;
 use crate::linear::is_finite;
@@ -23,7 +24,6 @@ use crate::state::State;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
-use crate::walk::cubic::{Cubic, Doubt, Glance, Reading};
 use crate::walk::land::Found;
 use crate::walk::{SegmentEnd, Walk};
 
@@ -85,6 +85,8 @@ enum Course {
     },
     /// There is one, and none before.
     Crossing(Found),
+    /// Whether this interface is met cannot be decided.
+    Unknown(usize),
 }
 
 /// The march through a segment.
@@ -162,6 +164,7 @@ where
                 Course::Crossing(found) => {
                     return self.cross_on_flow(flow, ladder, &mut level, found, stretch.tau);
                 }
+                Course::Unknown(interface) => return Err(self.unknown(interface, stretch.tau)),
             };
             let time = match stretch.tau < remaining {
                 true => self.time.after(stretch.tau),
@@ -254,10 +257,11 @@ where
                     room: room && cubic.has_room(doubt),
                 },
                 (Glance::Out, crossing) => crossing,
-                (Glance::Once(elapsed), Course::Free { .. }) => Course::Crossing(Found {
+                (Glance::Once { from, at }, Course::Free { .. }) => Course::Crossing(Found {
                     side: i,
-                    elapsed,
+                    elapsed: at,
                     precise: false,
+                    bracket: (from, tau),
                 }),
                 _ => return None,
             };
@@ -284,7 +288,7 @@ where
         for (i, &(interface, side)) in sides::<N, M, F>().iter().enumerate() {
             let series = jet.switching(interface).map(|c| side.sign() * c);
             if !series.iter().all(|c| c.is_finite()) {
-                return first;
+                return Course::Unknown(interface);
             }
             let size = flow.boundary().switching_size(interface, t, &self.state.x);
             let noise = NOISE * f64::ROUNDING * size;
@@ -305,6 +309,7 @@ where
                     side: i,
                     elapsed: horizon * unit,
                     precise: true,
+                    bracket: (lower * unit, upper * unit),
                 });
             }
         }

@@ -6,7 +6,6 @@
 
 mod adapt;
 mod arrive;
-mod cubic;
 mod expand;
 mod glance;
 mod interfaces;
@@ -16,7 +15,7 @@ mod run;
 mod steps;
 
 pub(crate) use glance::Decay;
-pub(crate) use run::{Crowd, enter, run_segment, run_segments};
+pub(crate) use run::{Accumulation, enter, run_segment, run_segments};
 
 use std::ops::ControlFlow;
 
@@ -107,6 +106,17 @@ where
             tau,
             Sys::region_name(self.region),
         )
+    }
+
+    /// The error of a step of which it cannot be decided whether it meets an interface.
+    #[cold]
+    fn unknown(&self, interface: usize, tau: f64) -> Error {
+        Error::Undecided {
+            t: self.time.value,
+            x: self.state.x.iter().copied().collect(),
+            step_size: tau,
+            interface: Sys::INTERFACES[interface],
+        }
     }
 
     /// Serves the output times up to the start.

@@ -14,39 +14,51 @@ use crate::time::Time;
 use crate::transition::{Locator, Meeting};
 use crate::walk::{SegmentEnd, Walk};
 
-/// Transitions that one step may have.
-const LARGEST_TRANSITIONS_A_STEP: u64 = 1000;
+/// Transitions that are seen together.
+const TOGETHER: u64 = 1000;
 
-/// The transitions of one step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Crowd {
-    step: u64,
-    transitions: u64,
+/// Whether transitions accumulate: so many within so short a time that doubles do not tell it from
+/// none, as a part of the time since the start of the run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accumulation {
+    start: Time,
+    /// The time of the first of those that are seen together.
+    first: Time,
+    count: u64,
 }
 
-impl Crowd {
-    /// Counts a transition in the step with a number, of which there must not be too many.
+impl Accumulation {
+    /// At the start of a run.
+    pub(crate) fn new(start: Time) -> Self {
+        Self {
+            start,
+            first: start,
+            count: 0,
+        }
+    }
+
+    /// Counts a transition.
     pub(crate) fn count<Sys: System<N>, const N: usize>(
         &mut self,
-        step: u64,
         interface: usize,
-        t: f64,
+        time: Time,
         x: &Vector<f64, N>,
     ) -> Result<(), Error> {
-        self.transitions = if step == self.step {
-            self.transitions + 1
-        } else {
-            1
-        };
-        self.step = step;
-        if self.transitions > LARGEST_TRANSITIONS_A_STEP {
+        self.count += 1;
+        if !self.count.is_multiple_of(TOGETHER) {
+            return Ok(());
+        }
+        let within = time.since(self.first);
+        if within <= f64::EPSILON * time.since(self.start) {
             return Err(Error::Zeno {
-                t,
+                t: time.value,
                 x: x.iter().copied().collect(),
                 interface: Sys::INTERFACES[interface],
-                limit: LARGEST_TRANSITIONS_A_STEP,
+                transitions: TOGETHER,
+                within,
             });
         }
+        self.first = time;
         Ok(())
     }
 }
@@ -61,8 +73,8 @@ where
     Loc: Locator,
     Obs: Observer<Sys::Region, N>,
 {
-    let mut crowd = Crowd::default();
-    while run_segment(walk, &mut crowd)?.is_continue() {}
+    let mut accumulation = Accumulation::new(walk.time);
+    while run_segment(walk, &mut accumulation)?.is_continue() {}
     Ok(())
 }
 
@@ -71,7 +83,7 @@ where
 #[inline(always)]
 pub(crate) fn run_segment<Sys, Sch, Loc, Obs, const N: usize>(
     walk: &mut Walk<'_, Sys, Sch, Loc, Obs, N>,
-    crowd: &mut Crowd,
+    accumulation: &mut Accumulation,
 ) -> Result<ControlFlow<()>, Error>
 where
     Sys: System<N>,
@@ -84,8 +96,7 @@ where
         SegmentEnd::Finished | SegmentEnd::Stopped => return Ok(ControlFlow::Break(())),
         SegmentEnd::Crossed { interface, rate } => (interface, rate),
     };
-    let number = Sch::step_number(&walk.progress);
-    crowd.count::<Sys, N>(number, interface, walk.time.value, &walk.state.x)?;
+    accumulation.count::<Sys, N>(interface, walk.time, &walk.state.x)?;
     let left = (walk.region, rate_from);
     let transition = enter(system, left, interface, walk.time, &walk.state)?;
     walk.statistics.transitions += 1;
@@ -110,10 +121,10 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     let meeting = Meeting::new(system, (from, rate_from), interface, time.value, &state.x)?;
     let Meeting { to, rate_to, .. } = meeting;
     let inwards = Sys::sides(to)[interface].sign();
-    if rate_to * inwards < 0.0 {
+    if rate_to * inwards < 0.0 && rate_from * inwards > 0.0 {
         return Err(meeting.sliding());
     }
-    if rate_to * inwards == 0.0 || rate_to.is_nan() {
+    if rate_to * inwards <= 0.0 || rate_to.is_nan() {
         return Err(meeting.tangential());
     }
     Ok(Transition {

@@ -1,20 +1,26 @@
 //! A segment: steps in one region until its boundary or the end time is reached.
 
 use crate::error::{Error, StepFailure};
+use crate::events::Path;
 use crate::level::{Level, Weights};
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
 use crate::scheme::{Maps, OneStep, Step};
 use crate::state::State;
 use crate::statistics::Statistics;
-use crate::system::{Flow, System, Vector};
+use crate::system::{Boundary, Flow, System, Vector};
 use crate::time::{Grid, Time};
 use crate::transition::Locator;
-use crate::walk::interfaces::{Watches, advance, is_near, readings, watches};
-use crate::walk::{SegmentEnd, Walk};
+use crate::transition::watch::{RESOLVED, UNRESOLVED};
+use crate::walk::interfaces::{Dense, Watches, advance, is_near, readings, through_ends, watches};
+use crate::walk::{Decay, SegmentEnd, Walk};
 
 /// Steps between adaptions of the level's correction to the size of the state.
 const RESCALING: u64 = 256;
+/// Steps between looks at whether they resolve the solution.
+const LOOKS: u64 = 32;
+/// The coefficients of g along the cubic through the ends of a step fall off like powers of this.
+const CUBIC_DECAY: f64 = 0.5;
 
 impl<Sys, Sch, Loc, Obs, const N: usize> Walk<'_, Sys, Sch, Loc, Obs, N>
 where
@@ -58,6 +64,8 @@ where
         let mut state = self.state;
         let mut node = self.progress.node;
         let mut watching = *watches;
+        let mut resolution = Resolution::default();
+        let mut reach = resolution.reach(flow, (self.time.value, &state.x), grid.step_size);
         // the last state known to be finite, where not every one is checked
         let mut finite = (state, node);
         let end = loop {
@@ -88,7 +96,7 @@ where
                 };
                 let next = state.after(&increment);
                 let values = readings::<N, M, F>(flow, t1, &next.x);
-                let near = is_near(&watching, &values);
+                let near = is_near(&watching, &values, reach);
                 if near || Obs::LISTENS || node == last || self.has_output(t1) {
                     break Ok((tau, increment, next, values, near));
                 }
@@ -109,7 +117,7 @@ where
             if near || self.has_output(t1) {
                 self.settle::<M, F>(state, node, &mut counts);
                 *watches = watching;
-                if near && let Some(end) = self.look(flow, level, watches, tau, &increment)? {
+                if near && let Some(end) = self.look_at(flow, level, watches, tau, &increment)? {
                     return Ok(Some(end));
                 }
                 self.outputs(flow, tau, self.node_time::<M, F>(node))?;
@@ -125,6 +133,9 @@ where
                 }
                 finite = (next, node + 1);
                 values = readings::<N, M, F>(flow, t1, &next.x);
+                if node.is_multiple_of(LOOKS) {
+                    reach = resolution.reach(flow, (t1, &next.x), grid.step_size);
+                }
             }
             advance(&mut watching, &values, near);
             state = next;
@@ -168,7 +179,7 @@ where
                 .scheme
                 .step(&step, &mut self.statistics)
                 .map_err(|failure| self.failure(failure, tau))?;
-            if let Some(end) = self.look(flow, level, watches, tau, &increment)? {
+            if let Some(end) = self.look_at(flow, level, watches, tau, &increment)? {
                 return Ok(Some(end));
             }
             self.outputs(flow, tau, end)?;
@@ -182,6 +193,39 @@ where
         self.progress.node += 1;
         self.progress.at_node = tau >= 0.0;
         Ok(None)
+    }
+
+    /// Looks at the interfaces over a step along the cubic through its ends.
+    #[cold]
+    fn look_at<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        level: &Level<N, M>,
+        watches: &mut Watches<F, N, M>,
+        tau: f64,
+        increment: &Vector<f64, N>,
+    ) -> Result<Option<SegmentEnd>, Error> {
+        if watches.as_ref().is_empty() {
+            return Ok(None);
+        }
+        let (t0, x0) = (self.time.value, self.state.x);
+        let step = Step {
+            flow,
+            t0,
+            x0: &x0,
+            tau,
+        };
+        let coefficients = through_ends(self.scheme, &step, increment);
+        let dense = Dense {
+            path: Path {
+                t0,
+                unit: 1.0,
+                coefficients: std::array::from_fn(|i| &coefficients[i][..]),
+            },
+            tau,
+            decay: Decay::new(CUBIC_DECAY),
+        };
+        self.look(flow, level, watches, &dense)
     }
 
     /// Whether the observer wants the solution at a time up to `end`.
@@ -283,6 +327,48 @@ where
             self.observer.output(&point);
         }
         Ok(())
+    }
+}
+
+/// Whether steps resolve the solution.
+struct Resolution<const N: usize> {
+    /// The largest |f| of each component so far.
+    sizes: Vector<f64, N>,
+}
+
+impl<const N: usize> Default for Resolution<N> {
+    fn default() -> Self {
+        Self {
+            sizes: Vector::zeros(),
+        }
+    }
+}
+
+impl<const N: usize> Resolution<N> {
+    /// The reach of the watches over steps τ from here: f changes by less than half of its size in
+    /// one, twelve steps a turn. A parabola for g is exact enough if g is affine.
+    #[inline(always)]
+    fn reach<const M: usize, F: Flow<f64, N, M>>(
+        &mut self,
+        flow: &F,
+        (t, x): (f64, &Vector<f64, N>),
+        tau: f64,
+    ) -> f64 {
+        const HALF: f64 = 0.5;
+        if const { <F::Boundary as Boundary<f64, N>>::AFFINE } {
+            return RESOLVED;
+        }
+        if const { !<F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE } {
+            return UNRESOLVED;
+        }
+        let field = flow.vector_field(t, x);
+        let later = flow.vector_field(t + tau, &(x + field * tau));
+        self.sizes = self.sizes.sup(&field.abs());
+        let mut resolved = true;
+        for i in 0..N {
+            resolved &= (later[i] - field[i]).abs() <= HALF * self.sizes[i];
+        }
+        if resolved { RESOLVED } else { UNRESOLVED }
     }
 }
 

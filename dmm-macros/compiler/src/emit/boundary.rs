@@ -3,7 +3,7 @@
 //! The functions are the same for every region; only the sides differ, and a region is a
 //! constant of the type.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::function::{Arguments, Functions};
@@ -134,11 +134,13 @@ fn implementation(
     };
     let interfaces = &emission.scheme.interfaces;
     let autonomous = interfaces.iter().all(|interface| interface.autonomous);
-    let affine = interfaces.iter().all(|interface| interface.affine);
-    let affine = affine.then(|| {
-        quote!(
-            const AFFINE: bool = true;
-        )
+    let degrees = interfaces.iter().map(|interface| interface.degree);
+    let degree = degrees.reduce(|a, b| Some(a?.max(b?))).flatten();
+    let degree = degree.map(|degree| {
+        let degree = Literal::u32_unsuffixed(degree);
+        quote! {
+            const DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(#degree);
+        }
     });
     let value = one_value(|nodes| nodes.value);
     let size = one_value(|nodes| nodes.size);
@@ -170,7 +172,7 @@ fn implementation(
                 BY_REGION[REGION]
             };
             const AUTONOMOUS: bool = #autonomous;
-            #affine
+            #degree
             type Each<T: ::core::marker::Copy> = [T; COUNT];
             #[inline]
             fn each<T: ::core::marker::Copy>(value: impl FnMut(usize) -> T) -> [T; COUNT] {

@@ -1,7 +1,7 @@
 //! Model → scheme: the multipliers and their divided differences of every region, f^τ from the
 //! first strategy that fits, and the proofs of what was derived.
 
-use super::affine::is_affine;
+use super::degree::{degree, is_affine};
 use super::strategy::{Context, choose, midpoint};
 use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
 use crate::algebra::{
@@ -38,7 +38,7 @@ fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
         time_derivative: differentiate(dag, function, &Model::time()),
         gradient: gradient(dag, function, states),
         autonomous: !dag.variables([function]).contains(&Model::time()),
-        affine: is_affine(dag, [function], &arguments),
+        degree: degree(dag, [function], &arguments),
     }
 }
 

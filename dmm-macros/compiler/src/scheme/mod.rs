@@ -11,7 +11,7 @@
 //! Λ^τ and ∂ₜ^τψ are the symmetric divided differences of ψ; f^τ is made from them by the
 //! first [`Strategy`] that fits, and what was derived is proved before it is handed on.
 
-mod affine;
+mod degree;
 mod derivation;
 mod findings;
 mod proofs;
@@ -46,8 +46,8 @@ pub struct SwitchingScheme {
     pub gradient: Vec<Id>,
     /// Whether g does not depend on the time.
     pub autonomous: bool,
-    /// Whether g is affine in t and x: ∂ₜg and ∇g depend on parameters alone.
-    pub affine: bool,
+    /// The degree of g as a polynomial in t and x, if it is one.
+    pub degree: Option<u32>,
 }
 
 /// The derived scheme of one region. Ends of a step are the variables `x₀`, `x₁`, `t₀`, `t₁`.

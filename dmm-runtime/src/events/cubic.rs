@@ -18,46 +18,51 @@ use crate::scalar::Scalar;
 
 /// g and dg/dt at a point, positive inside the region.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Reading {
-    pub(super) value: f64,
-    pub(super) rate: f64,
+pub(crate) struct Reading {
+    pub(crate) value: f64,
+    pub(crate) rate: f64,
 }
 
 /// How far g may be from the cubic.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Doubt {
+pub(crate) struct Doubt {
     /// C
-    pub(super) truncation: f64,
+    pub(crate) truncation: f64,
     /// The rounding error of g.
-    pub(super) noise: f64,
+    pub(crate) noise: f64,
     /// At the ends of the step g is not distinguished from zero below this.
-    pub(super) ends: f64,
+    pub(crate) ends: f64,
 }
 
 /// What the ends of a step tell of an interface.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum Glance {
+pub(crate) enum Glance {
     /// It is not reached.
     Out,
-    /// It is crossed once, about so long after the start.
-    Once(f64),
+    /// It is crossed once.
+    Once {
+        /// So long after the start g begins to fall.
+        from: f64,
+        /// About so long after the start g is zero.
+        at: f64,
+    },
     /// It may be reached.
     Near,
 }
 
 /// The cubic by its Bernstein coefficients.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cubic {
+pub(crate) struct Cubic {
     start: Reading,
     end: Reading,
     tau: f64,
-    pub(super) coefficients: [f64; 4],
+    pub(crate) coefficients: [f64; 4],
 }
 
 impl Cubic {
     /// That of a step over `tau`.
     #[inline(always)]
-    pub(super) fn new(start: Reading, end: Reading, tau: f64) -> Self {
+    pub(crate) fn new(start: Reading, end: Reading, tau: f64) -> Self {
         let third = tau * (1.0 / 3.0);
         let inner_1 = start.rate.fused(third, start.value);
         let inner_2 = (-end.rate).fused(third, end.value);
@@ -72,7 +77,7 @@ impl Cubic {
     /// A glance at the step. It is `fresh` if it starts on the interface; that root does not
     /// count.
     #[inline(always)]
-    pub(super) fn glance(&self, doubt: Doubt, fresh: bool) -> Glance {
+    pub(crate) fn glance(&self, doubt: Doubt, fresh: bool) -> Glance {
         let [b0, b1, b2, b3] = self.coefficients;
         let rest = doubt.truncation.fused(1.0 / 12.0, doubt.noise);
         let starts_inside = b0 > doubt.ends;
@@ -81,7 +86,10 @@ impl Cubic {
         }
         let slowest = (b0 - b1).min(b1 - b2).min(b2 - b3);
         if starts_inside && b3 <= -doubt.ends && slowest > rest + doubt.noise {
-            return Glance::Once(fall(self.start, self.end, self.tau));
+            return Glance::Once {
+                from: 0.0,
+                at: fall(self.start, self.end, self.tau),
+            };
         }
         match starts_inside || fresh {
             true => self.glance_at_parts(doubt),
@@ -114,15 +122,26 @@ impl Cubic {
                     value: split,
                     rate: 3.0 * (right_1 - split) / tau,
                 };
-                return Glance::Once(at * self.tau + fall(start, self.end, tau));
+                let from = at * self.tau;
+                return Glance::Once {
+                    from,
+                    at: from + fall(start, self.end, tau),
+                };
             }
         }
         Glance::Near
     }
 
+    /// Whether g rises throughout.
+    pub(crate) fn rises(&self, doubt: Doubt) -> bool {
+        let [b0, b1, b2, b3] = self.coefficients;
+        let slowest = (b1 - b0).min(b2 - b1).min(b3 - b2);
+        slowest > doubt.truncation.fused(1.0 / 12.0, 2.0 * doubt.noise)
+    }
+
     /// Whether the cubic goes on well inside for twice the step.
     #[inline(always)]
-    pub(super) fn has_room(&self, doubt: Doubt) -> bool {
+    pub(crate) fn has_room(&self, doubt: Doubt) -> bool {
         /// A step twice as long bends so many times as much.
         const TWICE: f64 = 16.0;
         let [b0, _, _, b3] = self.coefficients;
@@ -182,7 +201,7 @@ mod tests {
                 let (cubic, doubt) = cubic(g, tau, 1.0);
                 match cubic.glance(doubt, false) {
                     Glance::Out => assert!(lowest > 0.0, "{phase} {shift}"),
-                    Glance::Once(at) => {
+                    Glance::Once { at, .. } => {
                         assert!(g(0.0).0 > 0.0 && g(tau).0 < 0.0);
                         assert!((0.0..=tau).contains(&at), "{phase} {shift}: {at}");
                         let changes = values.windows(2).filter(|w| (w[0] > 0.0) != (w[1] > 0.0));
@@ -199,7 +218,7 @@ mod tests {
     #[test]
     fn half_a_turn_from_the_interface_and_beyond_is_told_at_once() {
         let (cubic, doubt) = cubic(|t| (t.sin(), t.cos()), 3.3, 1.0);
-        let Glance::Once(at) = cubic.glance(doubt, true) else {
+        let Glance::Once { at, .. } = cubic.glance(doubt, true) else {
             panic!("{:?}", cubic.glance(doubt, true));
         };
         assert!((at - std::f64::consts::PI).abs() < 0.01, "{at}");

@@ -1,0 +1,105 @@
+//! A switching function along a path: its value and slope at a point, and enclosures on a part.
+
+use super::Path;
+use super::interval::Interval;
+use crate::scalar::Scalar;
+use crate::series::InUnits;
+use crate::series::jet::FIRST;
+use crate::system::{Boundary, Vector};
+
+/// g this many rounding errors of its terms away from zero is not distinguished from it.
+pub(crate) const NOISE: f64 = 16.0;
+
+/// Coefficients that are enclosed: g, its slope, and those of order 2 to 4.
+pub(super) const ENCLOSED: usize = 5;
+
+/// The switching functions of a region along paths. What searches for their zeros is compiled for
+/// this face of them, and not once for each system.
+pub(crate) trait Guard<const N: usize> {
+    /// g and dg/ds at a point of a path.
+    fn point(&self, interface: usize, path: &Path<'_, N>, s: f64) -> (f64, f64);
+
+    /// The coefficients of g at every point from `a` to `b`.
+    fn enclosed(
+        &self,
+        interface: usize,
+        path: &Path<'_, N>,
+        a: f64,
+        b: f64,
+    ) -> [Interval; ENCLOSED];
+
+    /// The rounding error of g at (t, x): of its terms, and of the state that it is taken at.
+    fn noise(&self, interface: usize, t: f64, x: &Vector<f64, N>) -> f64;
+}
+
+/// A boundary, over doubles and over intervals.
+pub(crate) struct Enclosed<'a, B: Boundary<f64, N>, const N: usize> {
+    boundary: &'a B,
+    enclosing: B::Over<Interval>,
+}
+
+impl<'a, B: Boundary<f64, N>, const N: usize> Enclosed<'a, B, N> {
+    pub(crate) fn new(boundary: &'a B) -> Self {
+        Self {
+            boundary,
+            enclosing: boundary.over(),
+        }
+    }
+
+    /// The first coefficients of g at the start of a path.
+    pub(crate) fn first(&self, interface: usize, path: &Path<'_, N>) -> [f64; FIRST] {
+        let states = path
+            .coefficients
+            .map(|c| std::array::from_fn(|k| c.get(k).copied().unwrap_or_default()));
+        let time = (path.t0, path.unit);
+        coefficients(self.boundary, interface, time, &states, FIRST)
+    }
+}
+
+/// The coefficients of g up to an order, from those of the state.
+fn coefficients<S: Scalar, B: Boundary<S, N>, const N: usize>(
+    boundary: &B,
+    interface: usize,
+    (t, unit): (S, f64),
+    states: &[[S; FIRST]; N],
+    count: usize,
+) -> [S; FIRST] {
+    let mut series = B::series::<FIRST>();
+    for order in 0..count {
+        boundary.advance(InUnits { order, unit }, t, states, &mut series);
+    }
+    series.as_ref()[interface]
+}
+
+impl<B: Boundary<f64, N>, const N: usize> Guard<N> for Enclosed<'_, B, N> {
+    fn point(&self, interface: usize, path: &Path<'_, N>, s: f64) -> (f64, f64) {
+        let states = path.expanded(s);
+        let time = (path.time(s), path.unit);
+        let [value, slope, ..] = coefficients(self.boundary, interface, time, &states, 2);
+        (value, slope)
+    }
+
+    fn enclosed(
+        &self,
+        interface: usize,
+        path: &Path<'_, N>,
+        a: f64,
+        b: f64,
+    ) -> [Interval; ENCLOSED] {
+        let states = path.enclosed(a, b);
+        let t = Interval::new(path.time(a).next_down(), path.time(b).next_up());
+        let time = (t, path.unit);
+        let series = coefficients(&self.enclosing, interface, time, &states, ENCLOSED);
+        std::array::from_fn(|k| series[k])
+    }
+
+    fn noise(&self, interface: usize, t: f64, x: &Vector<f64, N>) -> f64 {
+        let mut size = self.boundary.switching_size(interface, t, x);
+        let (by_time, gradient) = self.boundary.switching_gradient(interface, t, x);
+        size += (by_time * t).abs();
+        for (gradient, x) in gradient.iter().zip(x) {
+            size += (gradient * x).abs();
+        }
+        NOISE * f64::ROUNDING * size
+    }
+}
