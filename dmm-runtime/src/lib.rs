@@ -36,6 +36,34 @@
 //! [`Taylor`] takes the discrete vector field in minimal-norm form instead, with a Taylor
 //! polynomial of high order for its mean field and steps as long as a tolerance allows.
 //!
+//! # Every crossing
+//!
+//! Between two points of a trajectory the sign of every switching function g is *certain*. A step
+//! has a dense output, a polynomial x(t). On it g is enclosed, by interval arithmetic on what
+//! [`pws!`] emits, and the step is looked at in ever shorter parts until each of them has no zero
+//! of g, or one. Where that is not possible, because g has no finite value or changes its sign
+//! without end, the run ends with [`Error::Undecided`]. What comes to zero within rounding errors
+//! and returns is a touch, which is no transition; [`Statistics::grazes`] counts them.
+//!
+//! | g | how it is told |
+//! |---|---|
+//! | affine, or a polynomial in t and x of degree 4 at most | by values and slopes at the ends of a step and a bound of the rest: at no cost that can be measured |
+//! | any other | by enclosures |
+//!
+//! | scheme | dense output |
+//! |---|---|
+//! | [`Taylor`] | the Taylor polynomial of the step |
+//! | exact flow in [`Best`] | the flow itself; g is affine there |
+//! | [`Symmetric`], [`Composed`] by a tolerance | the Taylor polynomial of order p + 1, led to the end of the step |
+//! | [`Symmetric`], [`Composed`] with uniform steps | the cubic through the ends of the step |
+//!
+//! With uniform steps the solution is only as good as the steps. A switching function that waves
+//! many times in a step is met at every zero along the cubic; what the *state* does within a step
+//! that is longer than a part of its period is not in the cubic, nor anywhere else. Where the steps
+//! do resolve the state (f changes by less than half of its size in one), or g is affine, a step
+//! is looked at where g comes nearer to zero than half of what it changes by in this step and the
+//! one before.
+//!
 //! # Conservation for ever
 //!
 //! Increments are added to a compensated state, and the level of ψ at the entry into a region

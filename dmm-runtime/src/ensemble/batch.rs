@@ -14,12 +14,12 @@ use super::vectorised::{Vectorised, Work};
 use super::{Member, Outcome};
 use crate::end::Halted;
 use crate::error::Error;
+use crate::events::ends::Decay;
 use crate::scalar::Scalar;
 use crate::scheme::Taylor;
 use crate::system::System;
 use crate::time::Time;
 use crate::transition::neighbour;
-use crate::walk::Decay;
 
 /// What a queue waits for.
 #[derive(Clone, Copy, Debug)]

@@ -2,9 +2,10 @@
 
 use std::hint::black_box;
 
-use super::glance::glance;
+use super::ends::course;
 use super::level::Place;
 use super::register::{Register, WIDTH, Wide};
+use crate::events::ends::Decay;
 use crate::lanes::Mask;
 use crate::scalar::Scalar;
 use crate::series::jet::{BoundaryUnrolled, expand, first_switching};
@@ -12,15 +13,14 @@ use crate::series::polynomial::increment;
 use crate::series::radius::{FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE};
 use crate::system::{Boundary, Flow, FlowVisitor, Vector};
 use crate::time::two_sum;
-use crate::walk::Decay;
 
-/// Halvings of a step of which a glance does not tell enough.
+/// Halvings of a step of which the ends do not tell enough.
 const MOST_HALVINGS: u32 = 2;
 /// The order of all steps. Straight-line code for several trajectories takes long to compile, so
 /// there is one order, next to the best one at every tolerance.
 pub(super) const ORDER: usize = 18;
 const COEFFICIENTS: usize = ORDER + 1;
-/// A longer step costs more than it gains, because a glance does not tell enough of it.
+/// A longer step costs more than it gains, because its ends do not tell enough of it.
 pub(super) const LONGEST: f64 = 0.4;
 
 /// What is to be done.
@@ -331,14 +331,14 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             let slope = (0..N).fold(by_time, |sum, i| gradient[i].fused(field[i], sum));
             let end = (sign * value, sign * slope);
             let fresh = fresh == Some(interface);
-            let seen = glance(&series, end, tau, self.settings.decay, fresh);
-            ahead.hard = ahead.hard.or(seen.out.or(seen.once).not());
+            let seen = course(&series, end, tau, self.settings.decay, fresh);
+            ahead.hard = ahead.hard.or(seen.free.or(seen.falls).not());
             // one crossing or the other may come first
-            ahead.hard = ahead.hard.or(seen.once.and(ahead.crosses));
-            ahead.crosses = ahead.crosses.or(seen.once);
-            ahead.elapsed = seen.once.select(seen.elapsed, ahead.elapsed);
+            ahead.hard = ahead.hard.or(seen.falls.and(ahead.crosses));
+            ahead.crosses = ahead.crosses.or(seen.falls);
+            ahead.elapsed = seen.falls.select(seen.elapsed, ahead.elapsed);
             let interface = Wide::from_f64(interface as f64);
-            ahead.interface = seen.once.select(interface, ahead.interface);
+            ahead.interface = seen.falls.select(interface, ahead.interface);
         }
         ahead
     }

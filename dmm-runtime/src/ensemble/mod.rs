@@ -5,7 +5,7 @@
 
 mod batch;
 mod crossing;
-mod glance;
+mod ends;
 mod kernel;
 mod level;
 mod pool;

@@ -34,20 +34,20 @@ pub(crate) struct Doubt {
     pub(crate) ends: f64,
 }
 
-/// What the ends of a step tell of an interface.
+/// What the ends of a step tell of an interface: the course of g.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Glance {
+pub(crate) enum Course {
     /// It is not reached.
-    Out,
+    Free,
     /// It is crossed once.
-    Once {
+    Falls {
         /// So long after the start g begins to fall.
         from: f64,
         /// About so long after the start g is zero.
         at: f64,
     },
     /// It may be reached.
-    Near,
+    Unknown,
 }
 
 /// The cubic by its Bernstein coefficients.
@@ -74,32 +74,32 @@ impl Cubic {
         }
     }
 
-    /// A glance at the step. It is `fresh` if it starts on the interface; that root does not
-    /// count.
+    /// What is certain about the step. It is `fresh` if it starts on the interface; that root does
+    /// not count.
     #[inline(always)]
-    pub(crate) fn glance(&self, doubt: Doubt, fresh: bool) -> Glance {
+    pub(crate) fn course(&self, doubt: Doubt, fresh: bool) -> Course {
         let [b0, b1, b2, b3] = self.coefficients;
         let rest = doubt.truncation.fused(1.0 / 12.0, doubt.noise);
         let starts_inside = b0 > doubt.ends;
         if b1 > rest && b2 > rest && b3 > doubt.ends && (starts_inside || fresh) {
-            return Glance::Out;
+            return Course::Free;
         }
         let slowest = (b0 - b1).min(b1 - b2).min(b2 - b3);
         if starts_inside && b3 <= -doubt.ends && slowest > rest + doubt.noise {
-            return Glance::Once {
+            return Course::Falls {
                 from: 0.0,
                 at: fall(self.start, self.end, self.tau),
             };
         }
         match starts_inside || fresh {
-            true => self.glance_at_parts(doubt),
-            false => Glance::Near,
+            true => self.course_of_parts(doubt),
+            false => Course::Unknown,
         }
     }
 
-    /// A closer look, on both sides of a place in between.
+    /// The same on both sides of a place in between.
     #[inline(never)]
-    fn glance_at_parts(&self, doubt: Doubt) -> Glance {
+    fn course_of_parts(&self, doubt: Doubt) -> Course {
         let [b0, b1, b2, b3] = self.coefficients;
         let off = doubt.truncation * (1.0 / 15.0);
         for at in [0.75, 0.5, 0.25] {
@@ -112,7 +112,7 @@ impl Cubic {
                 continue;
             }
             if right_1.min(right_2) > rest && b3 > doubt.ends {
-                return Glance::Out;
+                return Course::Free;
             }
             let after = 1.0 - at;
             let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
@@ -123,13 +123,13 @@ impl Cubic {
                     rate: 3.0 * (right_1 - split) / tau,
                 };
                 let from = at * self.tau;
-                return Glance::Once {
+                return Course::Falls {
                     from,
                     at: from + fall(start, self.end, tau),
                 };
             }
         }
-        Glance::Near
+        Course::Unknown
     }
 
     /// Whether g rises throughout.
@@ -199,16 +199,16 @@ mod tests {
                     .collect();
                 let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
                 let (cubic, doubt) = cubic(g, tau, 1.0);
-                match cubic.glance(doubt, false) {
-                    Glance::Out => assert!(lowest > 0.0, "{phase} {shift}"),
-                    Glance::Once { at, .. } => {
+                match cubic.course(doubt, false) {
+                    Course::Free => assert!(lowest > 0.0, "{phase} {shift}"),
+                    Course::Falls { at, .. } => {
                         assert!(g(0.0).0 > 0.0 && g(tau).0 < 0.0);
                         assert!((0.0..=tau).contains(&at), "{phase} {shift}: {at}");
                         let changes = values.windows(2).filter(|w| (w[0] > 0.0) != (w[1] > 0.0));
                         assert_eq!(changes.count(), 1, "{phase} {shift}");
                         crossings += 1;
                     }
-                    Glance::Near => {}
+                    Course::Unknown => {}
                 }
             }
         }
@@ -218,28 +218,28 @@ mod tests {
     #[test]
     fn half_a_turn_from_the_interface_and_beyond_is_told_at_once() {
         let (cubic, doubt) = cubic(|t| (t.sin(), t.cos()), 3.3, 1.0);
-        let Glance::Once { at, .. } = cubic.glance(doubt, true) else {
-            panic!("{:?}", cubic.glance(doubt, true));
+        let Course::Falls { at, .. } = cubic.course(doubt, true) else {
+            panic!("{:?}", cubic.course(doubt, true));
         };
         assert!((at - std::f64::consts::PI).abs() < 0.01, "{at}");
-        assert_eq!(cubic.glance(doubt, false), Glance::Near);
+        assert_eq!(cubic.course(doubt, false), Course::Unknown);
     }
 
     #[test]
     fn what_is_far_is_told_at_once() {
         let told = |g: &dyn Fn(f64) -> (f64, f64), tau: f64, fresh: bool| {
             let (cubic, doubt) = cubic(g, tau, 1.0);
-            (cubic.glance(doubt, fresh), cubic.has_room(doubt))
+            (cubic.course(doubt, fresh), cubic.has_room(doubt))
         };
         assert_eq!(
             told(&|t| (2.0 + t.sin(), t.cos()), 0.5, false),
-            (Glance::Out, true)
+            (Course::Free, true)
         );
         assert_eq!(
             told(&|t| (t.sin(), t.cos()), 1.0, true),
-            (Glance::Out, false)
+            (Course::Free, false)
         );
         let touching = |t: f64| (1.0 - (t + 1.0).sin(), -(t + 1.0).cos());
-        assert_eq!(told(&touching, 1.0, false).0, Glance::Near);
+        assert_eq!(told(&touching, 1.0, false).0, Course::Unknown);
     }
 }

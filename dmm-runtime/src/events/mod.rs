@@ -9,6 +9,7 @@
 //! What lies within rounding errors of zero and returns is a touch: no crossing, but counted.
 
 pub(crate) mod cubic;
+pub(crate) mod ends;
 pub(crate) mod guard;
 pub(crate) mod interval;
 pub(crate) mod path;

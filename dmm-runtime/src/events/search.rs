@@ -9,7 +9,7 @@
 //! A path that starts on the interface, coming from there, has a root at its start that does not
 //! count: g has to rise until it is above its rounding error.
 
-use super::cubic::{Cubic, Doubt, Glance, Reading};
+use super::cubic::{Course, Cubic, Doubt, Reading};
 use super::guard::{ENCLOSED, Guard};
 use super::interval::Interval;
 use super::path::Path;
@@ -67,15 +67,6 @@ struct Part {
     noise: f64,
 }
 
-/// What is certain about a part.
-enum Course {
-    /// There is no zero.
-    Free,
-    /// g is positive until this place and falls through zero after it.
-    Falls(f64),
-    Unknown,
-}
-
 impl<const N: usize> Search<'_, N> {
     /// The first zero, and how often zero was touched before. The path is `fresh` if it comes from
     /// the interface.
@@ -113,9 +104,9 @@ impl<const N: usize> Search<'_, N> {
             } = part.end;
             let passed = match part.course(rises, self.level == 0.0) {
                 Course::Free => true,
-                Course::Falls(from) => {
+                Course::Falls { from, .. } => {
                     let lower = if part.start.reading.value > 0.0 {
-                        from
+                        here.s + from
                     } else {
                         inside
                     };
@@ -262,17 +253,14 @@ impl Part {
             return Course::Free;
         }
         if !rises && falls && end.value < -self.noise {
-            return Course::Falls(self.start.s);
+            let (from, at) = (0.0, 0.0);
+            return Course::Falls { from, at };
         }
         let (cubic, doubt) = self.cubic();
         if rises && cubic.rises(doubt) {
             return Course::Free;
         }
-        match cubic.glance(doubt, rises && at_zero) {
-            Glance::Out => Course::Free,
-            Glance::Once { from, .. } => Course::Falls(self.start.s + from),
-            Glance::Near => Course::Unknown,
-        }
+        cubic.course(doubt, rises && at_zero)
     }
 
     /// A lower bound of g.

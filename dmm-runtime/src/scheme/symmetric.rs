@@ -17,6 +17,10 @@ use crate::system::{Flow, Solvability, Vector};
 /// conserving every declared ψ exactly (Wan, Bihlo & Nave 2017; Hirani, Wan & Wojtalewicz,
 /// eq. 2.3).
 ///
+/// A step has to resolve the solution: interfaces are met along the cubic through its ends (see
+/// [the front page](crate#every-crossing)), on which nothing is to be seen of an excursion of the
+/// state that is shorter than a step.
+///
 /// Where f^τ is affine in x₁ the solution is in closed form; elsewhere it is found by
 /// Newton's method in the increment with the generated Jacobian, from an explicit predictor
 /// (the polynomial through the last six increments), down to rounding.

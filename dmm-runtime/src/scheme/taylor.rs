@@ -1,6 +1,7 @@
 //! Taylor's method of high order, with conservation.
 
 use crate::error::{Error, StepFailure};
+use crate::events::ends::Decay;
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
@@ -13,7 +14,7 @@ use crate::state::State;
 use crate::system::{Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
-use crate::walk::{Decay, SegmentEnd, Walk};
+use crate::walk::{SegmentEnd, Walk};
 
 /// Taylor's method
 ///
@@ -26,7 +27,8 @@ use crate::walk::{Decay, SegmentEnd, Walk};
 /// coefficients, over which the first neglected term is below the tolerance relative to the
 /// state (Jorba & Zou, Experimental Mathematics 14, 2005, sections 3.1–3.2). After each step,
 /// and at each transition, the state is put back on the level of the conserved quantities.
-/// The switching functions are power series too, so that every root in a step is found.
+/// Every zero of a switching function in a step is found, however slowly its own series
+/// converges: see [the front page](crate#every-crossing).
 ///
 /// ```
 /// use dmm_runtime::{Integrator, Taylor, pws};

@@ -2,6 +2,7 @@
 
 use crate::error::{Error, StepFailure};
 use crate::events::Path;
+use crate::events::ends::Decay;
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
@@ -10,7 +11,7 @@ use crate::system::{Flow, System, Vector};
 use crate::time::Time;
 use crate::transition::Locator;
 use crate::walk::interfaces::{Dense, advance, readings, watches};
-use crate::walk::{Decay, SegmentEnd, Walk};
+use crate::walk::{SegmentEnd, Walk};
 
 /// A step is too long if at its end steps this many times shorter are asked for.
 const TOO_LONG: f64 = 2.0;

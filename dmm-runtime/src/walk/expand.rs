@@ -2,7 +2,8 @@
 //! radius of convergence as the tolerance allows.
 
 use crate::error::{Error, StepFailure};
-use crate::events::cubic::Glance;
+use crate::events::cubic::Course;
+use crate::events::ends::Ends;
 use crate::events::guard::NOISE;
 use crate::events::{Enclosed, Met, Path, Search};
 use crate::level::Level;
@@ -19,7 +20,6 @@ use crate::system::{Boundary, Flow, Side, System};
 use crate::time::Time;
 use crate::transition::Locator;
 use crate::walk::arrive::Found;
-use crate::walk::glance::Glimpse;
 use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between adaptions of the level's correction to the size of the state.
@@ -148,7 +148,7 @@ where
             return self.first_enclosed::<P, M, F, U>(flow, jet, here, tau, (fresh, part));
         }
         let field = flow.vector_field(time.value, &state.x);
-        let glimpse = Glimpse {
+        let ends = Ends {
             tau: jet.in_units(tau),
             decay: self.progress.decay,
         };
@@ -162,9 +162,9 @@ where
             let (by_time, gradient) = boundary.switching_gradient(interface, time.value, &state.x);
             let slope = (by_time + dot(&gradient, &field)) * jet.unit();
             let fresh = fresh == Some(interface);
-            match glimpse.at(c, (value, slope), side.sign(), fresh) {
-                Glance::Out => {}
-                Glance::Once { from, at } => {
+            match ends.course(c, (value, slope), side.sign(), fresh) {
+                Course::Free => {}
+                Course::Falls { from, at } => {
                     near |= once.is_some();
                     once = Some(Found {
                         interface,
@@ -174,7 +174,7 @@ where
                         start: Some((c[0], jet.in_units(c[1]))),
                     });
                 }
-                Glance::Near => near = true,
+                Course::Unknown => near = true,
             }
         }
         match (near, once) {
@@ -400,8 +400,8 @@ impl Part {
         is_finest: false,
     };
 
-    /// Half of it, of which a glance may tell what it does not of the whole: that costs less than
-    /// to look at all coefficients of g, until it has been tried in vain.
+    /// Half of it. The ends of a shorter step tell more, at less than the cost of all coefficients
+    /// of g, until that has been tried in vain.
     #[inline(always)]
     fn half(self) -> Option<Self> {
         const SMALLEST: f64 = 0.25;

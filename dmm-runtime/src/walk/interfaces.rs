@@ -2,7 +2,8 @@
 //! along the step's dense output where one is near, and crossed at the one that comes first.
 
 use crate::error::Error;
-use crate::events::cubic::Glance;
+use crate::events::cubic::Course;
+use crate::events::ends::{Decay, Ends};
 use crate::events::{Enclosed, Guard, Met, Path, Search};
 use crate::level::Level;
 use crate::linear::is_finite;
@@ -13,7 +14,6 @@ use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::transition::watch::Watch;
 use crate::transition::{Crossing, Located, Locator, rate};
-use crate::walk::glance::{Decay, Glimpse};
 use crate::walk::{SegmentEnd, Walk};
 
 /// A watch for each interface that bounds the region of a flow.
@@ -147,10 +147,10 @@ where
                 end: dense.tau / dense.path.unit,
                 level: 0.0,
             };
-            let bracket = match glance_at::<N, M, F>(&guard, &search, dense, watch.fresh) {
-                Glance::Out => continue,
-                Glance::Once { from, .. } => (from, search.end),
-                Glance::Near => {
+            let bracket = match by_ends::<N, M, F>(&guard, &search, dense, watch.fresh) {
+                Course::Free => continue,
+                Course::Falls { from, .. } => (from, search.end),
+                Course::Unknown => {
                     search.end = end / dense.path.unit;
                     let (met, touches) = search.first(watch.fresh);
                     self.statistics.grazes += u64::from(touches);
@@ -238,14 +238,14 @@ fn locate_in<Sch: OneStep, Loc: Locator, F: Flow<f64, N, M>, const N: usize, con
 }
 
 /// What the ends of a step tell of an interface whose switching function follows the state.
-fn glance_at<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+fn by_ends<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     guard: &Enclosed<'_, F::Boundary, N>,
     search: &Search<'_, N>,
     dense: &Dense<'_, N>,
     fresh: bool,
-) -> Glance {
+) -> Course {
     if !<F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE {
-        return Glance::Near;
+        return Course::Unknown;
     }
     let &Search {
         interface,
@@ -256,9 +256,9 @@ fn glance_at<const N: usize, const M: usize, F: Flow<f64, N, M>>(
     } = search;
     let c: [f64; FIRST] = guard.first(interface, path).map(|c| sign * c);
     let (value, slope) = guard.point(interface, path, end);
-    let glimpse = Glimpse {
+    let ends = Ends {
         tau: end,
         decay: dense.decay,
     };
-    glimpse.at(&c, (sign * value, sign * slope), 1.0, fresh)
+    ends.course(&c, (sign * value, sign * slope), 1.0, fresh)
 }

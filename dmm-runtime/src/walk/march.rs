@@ -2,14 +2,14 @@
 //! crossings located on the flow itself.
 //!
 //! Along ẋ = A x + b the fourth derivative of g = c·x + γt + d is c A³ f with f(t) = exp(tA) f(0),
-//! and so bounded by a constant row times |f| at an earlier time: that makes a glance at the
-//! [`Cubic`] through the ends of a step certain. A step is taken where it excludes a crossing, or
+//! and so bounded by a constant row times |f| at an earlier time: that makes what the
+//! [`Cubic`] through the ends of a step tells certain. A step is taken where it excludes a crossing, or
 //! proves that there is one. Where it does neither, the step is made shorter, down to the lowest
 //! rung of the ladder; there the power series of g, which converges to rounding, decides like in
 //! a Taylor step.
 
 use crate::error::{Error, StepFailure};
-use crate::events::cubic::{Cubic, Doubt, Glance, Reading};
+use crate::events::cubic::{self, Cubic, Doubt, Reading};
 use crate::exact::{FIRST, Ladder};
 use crate::level::Level;
 use crate::linear::is_finite;
@@ -251,18 +251,20 @@ where
             };
             let (start, end) = (&march.at.readings, &stretch.end.readings);
             let cubic = Cubic::new(start.as_ref()[i], end.as_ref()[i], tau);
-            let glance = cubic.glance(doubt, march.fresh == Some(interface));
-            course = match (glance, course) {
-                (Glance::Out, Course::Free { room }) => Course::Free {
+            let by_ends = cubic.course(doubt, march.fresh == Some(interface));
+            course = match (by_ends, course) {
+                (cubic::Course::Free, Course::Free { room }) => Course::Free {
                     room: room && cubic.has_room(doubt),
                 },
-                (Glance::Out, crossing) => crossing,
-                (Glance::Once { from, at }, Course::Free { .. }) => Course::Crossing(Found {
-                    side: i,
-                    elapsed: at,
-                    precise: false,
-                    bracket: (from, tau),
-                }),
+                (cubic::Course::Free, crossing) => crossing,
+                (cubic::Course::Falls { from, at }, Course::Free { .. }) => {
+                    Course::Crossing(Found {
+                        side: i,
+                        elapsed: at,
+                        precise: false,
+                        bracket: (from, tau),
+                    })
+                }
                 _ => return None,
             };
         }

@@ -7,14 +7,12 @@
 mod adapt;
 mod arrive;
 mod expand;
-mod glance;
 mod interfaces;
 mod land;
 mod march;
 mod run;
 mod steps;
 
-pub(crate) use glance::Decay;
 pub(crate) use run::{Accumulation, enter, run_segment, run_segments};
 
 use std::ops::ControlFlow;

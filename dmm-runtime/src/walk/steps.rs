@@ -2,6 +2,7 @@
 
 use crate::error::{Error, StepFailure};
 use crate::events::Path;
+use crate::events::ends::Decay;
 use crate::level::{Level, Weights};
 use crate::linear::is_finite;
 use crate::observer::{Observer, Point};
@@ -13,7 +14,7 @@ use crate::time::{Grid, Time};
 use crate::transition::Locator;
 use crate::transition::watch::{RESOLVED, UNRESOLVED};
 use crate::walk::interfaces::{Dense, Watches, advance, is_near, readings, through_ends, watches};
-use crate::walk::{Decay, SegmentEnd, Walk};
+use crate::walk::{SegmentEnd, Walk};
 
 /// Steps between adaptions of the level's correction to the size of the state.
 const RESCALING: u64 = 256;

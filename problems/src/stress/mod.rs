@@ -235,6 +235,7 @@ fn name(error: &Error) -> &'static str {
         Error::AmbiguousStart { .. } => "ambiguous start",
         Error::NoRegion { .. } => "no region",
         Error::LocationFailed { .. } => "location failed",
+        Error::Undecided { .. } => "undecided",
         Error::Zeno { .. } => "Zeno",
         Error::OutOfRange { .. } => "out of range",
         _ => "other",

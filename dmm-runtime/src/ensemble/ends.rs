@@ -1,36 +1,36 @@
 //! Whether the lanes reach an interface in a step, from the values and the slopes of g at both
-//! ends and its first coefficients; the mathematics is that of [`crate::walk::glance`].
+//! ends and its first coefficients; the mathematics is that of [`crate::events::ends`].
 
 use super::register::{WIDTH, Wide};
+use crate::events::ends::Decay;
 use crate::lanes::Mask;
 use crate::scalar::Scalar;
 use crate::series::jet::FIRST;
-use crate::walk::Decay;
 
 /// g this many rounding errors of its terms away from zero is not distinguished from it.
 const NOISE: f64 = 16.0;
 
 /// What the ends of a step tell of an interface.
-pub(super) struct Glance {
+pub(super) struct Course {
     /// Where it is not reached.
-    pub(super) out: Mask<WIDTH>,
+    pub(super) free: Mask<WIDTH>,
     /// Where it is crossed once …
-    pub(super) once: Mask<WIDTH>,
+    pub(super) falls: Mask<WIDTH>,
     /// … and about how long after the start.
     pub(super) elapsed: Wide,
 }
 
-/// A glance over steps `tau` with the first coefficients of g, its value and
+/// What is certain about steps `tau`, with the first coefficients of g, its value and
 /// slope at the end, all positive in the region. The root at the start does not count if the
 /// lanes are `fresh` from it.
 #[inline(always)]
-pub(super) fn glance(
+pub(super) fn course(
     c: &[Wide; FIRST],
     (b3, slope): (Wide, Wide),
     tau: Wide,
     decay: Decay,
     fresh: bool,
-) -> Glance {
+) -> Course {
     let n = Wide::from_f64;
     let (third, square) = (tau * n(1.0 / 3.0), tau * tau);
     let b0 = c[0];
@@ -52,7 +52,7 @@ pub(super) fn glance(
         true => Mask::all(true),
         false => b0.above(zero),
     };
-    let out = b1
+    let free = b1
         .above(rest)
         .and(b2.above(rest))
         .and(b3.above(zero))
@@ -62,9 +62,9 @@ pub(super) fn glance(
         .and((b1 - b2).above(rest + rest))
         .and((b2 - b3).above(rest));
     let once = falls.and(b0.above(zero)).and(b3.above(zero).not());
-    Glance {
-        out,
-        once,
+    Course {
+        free,
+        falls: once,
         elapsed: inverse(tau, (b0, c[1]), (b3, slope)),
     }
 }

@@ -10,7 +10,7 @@
 //! does no harm, a is the largest of three: |g₄| h⁴, |g₅| h⁵/φ, and the difference of the
 //! coefficients of order 2 of g and H, which is Σ (j − 3) gⱼ hʲ.
 
-use crate::events::cubic::{Cubic, Doubt, Glance, Reading};
+use crate::events::cubic::{Course, Cubic, Doubt, Reading};
 use crate::events::guard::NOISE;
 use crate::scalar::Scalar;
 use crate::series::jet::FIRST;
@@ -20,11 +20,11 @@ const MARGIN: f64 = 1.5;
 
 /// A step as the interfaces see it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Glimpse {
+pub(crate) struct Ends {
     /// The size of the step.
-    pub(super) tau: f64,
+    pub(crate) tau: f64,
     /// How the coefficients fall off.
-    pub(super) decay: Decay,
+    pub(crate) decay: Decay,
 }
 
 /// How coefficients fall off.
@@ -47,18 +47,18 @@ impl Decay {
     }
 }
 
-impl Glimpse {
-    /// A glance at an interface: from the first coefficients of g, its value and its slope at
-    /// the end, and the sign of g in the region. It is `fresh` if the step starts on it; that
+impl Ends {
+    /// What is certain about an interface, from the first coefficients of g, its value and its
+    /// slope at the end, and the sign of g in the region. It is `fresh` if the step starts on it; that
     /// root does not count.
     #[inline(always)]
-    pub(super) fn at(
+    pub(crate) fn course(
         self,
         c: &[f64; FIRST],
         (value, slope): (f64, f64),
         sign: f64,
         fresh: bool,
-    ) -> Glance {
+    ) -> Course {
         let Self { tau, decay } = self;
         let reading = |value: f64, rate: f64| Reading {
             value: sign * value,
@@ -78,6 +78,6 @@ impl Glimpse {
             noise: NOISE * f64::ROUNDING * (b0.abs() + b3.abs()),
             ends: 0.0,
         };
-        cubic.glance(doubt, fresh)
+        cubic.course(doubt, fresh)
     }
 }
