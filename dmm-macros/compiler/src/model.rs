@@ -115,6 +115,21 @@ pub enum Sign {
     Positive,
 }
 
+/// The functions that are positive in a region: g or −g of its sides.
+pub fn sides(dag: &mut Dag, interfaces: &[Interface], region: &Region) -> Vec<Id> {
+    let mut sides = Vec::new();
+    for side in &region.sides {
+        if let Some(interface) = interfaces.get(side.interface) {
+            let g = interface.switching_function;
+            sides.push(match side.sign {
+                Sign::Positive => g,
+                Sign::Negative => dag.neg(g),
+            });
+        }
+    }
+    sides
+}
+
 /// A conserved quantity ψ(t, x): ∂ₜψ + ∇ψ·f = 0.
 #[derive(Debug, Clone)]
 pub struct Conserved {

@@ -9,7 +9,7 @@ use crate::algebra::{
 };
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::scheme as codes;
-use crate::model::{Model, Region};
+use crate::model::{Model, Region, sides};
 
 /// Derives the scheme of `model`. What cannot be derived, and an identity that fails, is
 /// reported, and then there is no scheme.
@@ -79,13 +79,21 @@ fn derive_region(
         canonical: &region.canonical,
     };
     let (strategy, refusals) = choose(dag, &context);
-    let proofs = proofs::prove(dag, &context, &psi, &strategy, &mut |identity, at| {
-        diagnostics.report(
+    let sides = sides(dag, &model.interfaces, region);
+    let proofs =
+        proofs::prove(
+            dag,
+            &context,
+            (&psi, &sides),
+            &strategy,
+            &mut |identity, at| {
+                diagnostics.report(
             codes::IDENTITY,
             region.ident.span(),
             format!("internal error of the compiler: the derived scheme violates {identity} {at}"),
         );
-    });
+            },
+        );
     let proofs = Proofs {
         levels: levels(dag, region, interfaces),
         ..proofs
