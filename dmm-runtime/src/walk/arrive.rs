@@ -18,7 +18,7 @@ use crate::series::jet::Jet;
 use crate::state::State;
 use crate::system::{Boundary, Flow, System, Vector};
 use crate::time::Time;
-use crate::transition::Locator;
+use crate::transition::{Locator, guard};
 use crate::walk::expand::Here;
 use crate::walk::{SegmentEnd, Walk};
 
@@ -102,13 +102,15 @@ where
         tau: f64,
     ) -> Result<SegmentEnd, Error> {
         let interface = found.interface;
-        let Some((time, state, rate)) = self.locate::<P, M, F, U>(flow, level, jet, found, tau)
-        else {
+        let located = self
+            .locate::<P, M, F, U>(flow, level, jet, found, tau)
+            .or_else(|| self.about_guard::<P, M, F, U>(jet, found));
+        let Some((time, state, rate)) = located else {
             return Err(Error::LocationFailed {
                 t: self.time.value,
                 x: self.state.x.iter().copied().collect(),
                 step_size: tau,
-                interface: Sys::INTERFACES[interface],
+                interface: Sys::boundary_name(interface),
             });
         };
         let elapsed = time.since(self.time).clamp(0.0, tau);
@@ -123,6 +125,20 @@ where
             return Ok(SegmentEnd::Stopped);
         }
         Ok(SegmentEnd::Crossed { interface, rate })
+    }
+
+    /// About where the solution comes to a guard, on which f may have no value; nothing for an
+    /// interface.
+    #[cold]
+    fn about_guard<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
+        &self,
+        jet: &Jet<F, U, N, M, P>,
+        found: &Found,
+    ) -> Option<(Time, State<N>, f64)> {
+        guard::<Sys, N>(found.interface)?;
+        let state = self.state.after(&jet.increment(found.elapsed)).normalised();
+        let time = self.time.after(found.elapsed);
+        is_finite(&state.x).then_some((time, state, f64::NAN))
     }
 
     /// t̂*, x̂* and dg/dt there.

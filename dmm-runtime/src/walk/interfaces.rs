@@ -8,7 +8,7 @@ use crate::observer::Observer;
 use crate::scheme::Maps;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::transition::watch::{Outcome, Watch};
-use crate::transition::{Crossing, Located, Locator, rate};
+use crate::transition::{Crossing, Located, Locator, guard, rate};
 use crate::walk::{SegmentEnd, Walk};
 
 /// A watch for each interface that bounds the region of a flow.
@@ -146,11 +146,18 @@ where
         };
         let valid =
             located.filter(|located| located.elapsed >= 0.0 && is_finite(&located.increment));
+        // no step of the scheme may end on a guard, beyond which ψ may have another value
+        let valid = valid.or_else(|| {
+            guard::<Sys, N>(interface).map(|_| Located {
+                elapsed: 0.0,
+                increment: Vector::zeros(),
+            })
+        });
         let located = valid.ok_or_else(|| Error::LocationFailed {
             t: self.time.value,
             x: self.state.x.iter().copied().collect(),
             step_size: tau,
-            interface: Sys::INTERFACES[interface],
+            interface: Sys::boundary_name(interface),
         })?;
         Ok(Some(First { interface, located }))
     }

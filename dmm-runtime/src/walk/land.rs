@@ -50,7 +50,7 @@ where
             t: walk.time.value,
             x: walk.state.x.iter().copied().collect(),
             step_size: tau,
-            interface: Sys::INTERFACES[interface],
+            interface: Sys::boundary_name(interface),
         };
         let meeting = self.meet(flow, ladder, found, tau);
         let (mut time, mut state) = meeting.ok_or_else(|| failed(self))?;

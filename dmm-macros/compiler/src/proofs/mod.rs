@@ -17,7 +17,7 @@
 //! What was found is written into the model: [`Conserved::evidence`](crate::model::Conserved)
 //! and [`Region::independence`](crate::model::Region).
 
-mod conditions;
+pub(crate) mod conditions;
 mod conservation;
 mod independence;
 mod interfaces;

@@ -2,6 +2,7 @@
 //! first strategy that fits, and the proofs of what was derived.
 
 use super::affine::is_affine;
+use super::guards::guards;
 use super::strategy::{Context, choose, midpoint};
 use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
 use crate::algebra::{
@@ -32,7 +33,7 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
 }
 
 /// The derivatives of a switching function.
-fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
+pub(super) fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
     let arguments = [states, &[Model::time()]].concat();
     SwitchingScheme {
         time_derivative: differentiate(dag, function, &Model::time()),
@@ -50,7 +51,8 @@ fn derive_region(
     diagnostics: &mut Diagnostics,
 ) -> RegionScheme {
     let dag = &mut model.dag;
-    let region = &model.regions[region];
+    let index = region;
+    let region = &model.regions[index];
     let time = Model::time();
     let psi: Vec<Id> = region.conserved.iter().map(|one| one.psi).collect();
     let autonomous = !dag
@@ -101,6 +103,8 @@ fn derive_region(
     let field = region.field.iter().copied();
     let affine = !dag.variables(field.clone()).contains(&time) && is_affine(dag, field, states);
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
+    let variables = (states, model.parameters.as_slice());
+    let guards = guards(dag, variables, (index, region), &sides, &strategy);
     RegionScheme {
         multiplier,
         time_derivative,
@@ -112,6 +116,7 @@ fn derive_region(
         autonomous,
         affine,
         proofs,
+        guards,
     }
 }
 

@@ -254,7 +254,7 @@ fn pairs<'a>(a: &'a [Id], b: &'a [Id]) -> impl Iterator<Item = (Id, Id)> + 'a {
 }
 
 /// `root` where the two ends of the step are the same point (t, x).
-fn coincide(dag: &mut Dag, root: Id, states: &[Name]) -> Id {
+pub(super) fn coincide(dag: &mut Dag, root: Id, states: &[Name]) -> Id {
     let time = Model::time();
     let mut points: HashMap<Name, Id> = HashMap::new();
     for name in states.iter().chain([&time]) {

@@ -35,17 +35,17 @@ use crate::model::DomainCondition;
 use redundant::{equal_condition, is_within_by, without_consequences, without_multiples};
 
 /// Where formulas are defined.
-pub(super) struct Domain {
+pub(crate) struct Domain {
     /// What has to hold.
-    pub(super) conditions: Vec<DomainCondition>,
+    pub(crate) conditions: Vec<DomainCondition>,
     /// The statements that exclude one another, if there is no open set where they are defined.
-    pub(super) contradiction: Option<String>,
+    pub(crate) contradiction: Option<String>,
 }
 
 /// What has to hold for every node of `roots` to be defined where every one of `sides` is
 /// positive; powers of a base in `both` with an exponent that is no number have values on both
 /// sides of its zeros.
-pub(super) fn domain(dag: &mut Dag, roots: &[Id], sides: &[Id], both: &BTreeSet<Id>) -> Domain {
+pub(crate) fn domain(dag: &mut Dag, roots: &[Id], sides: &[Id], both: &BTreeSet<Id>) -> Domain {
     let mut found = Conditions {
         both: both.clone(),
         ..Conditions::default()
@@ -54,6 +54,27 @@ pub(super) fn domain(dag: &mut Dag, roots: &[Id], sides: &[Id], both: &BTreeSet<
         found.node(dag, id);
     }
     found.finish(dag, sides)
+}
+
+/// What has to hold for the operations of `nodes` alone to have values, those of their arguments
+/// apart.
+pub(crate) fn conditions_of(dag: &mut Dag, nodes: &[Id], sides: &[Id]) -> Vec<DomainCondition> {
+    let mut found = Conditions::default();
+    for &node in nodes {
+        found.node(dag, node);
+    }
+    found.finish(dag, sides).conditions
+}
+
+/// Whether a condition holds, but for its border, where others do.
+pub(crate) fn follows(dag: &mut Dag, condition: DomainCondition, from: &[DomainCondition]) -> bool {
+    let need = |condition: DomainCondition| match condition {
+        DomainCondition::Positive(u) | DomainCondition::NotNegative(u) => Some((u, Need::Positive)),
+        DomainCondition::NonZero(_) | DomainCondition::WithinOne(_) => None,
+    };
+    let known: Vec<(Id, Need)> = from.iter().filter_map(|&one| need(one)).collect();
+    from.contains(&condition)
+        || need(condition).is_some_and(|condition| within::is_implied_by(dag, condition, &known))
 }
 
 /// The variables that are nowhere positive where `roots` are defined.

@@ -34,6 +34,12 @@ pub(super) fn not_implied(dag: &mut Dag, kept: Vec<(Id, Need)>, sides: &[Id]) ->
     rest
 }
 
+/// Whether a condition holds where the `known` ones do.
+pub(super) fn is_implied_by(dag: &mut Dag, condition: (Id, Need), known: &[(Id, Need)]) -> bool {
+    let ranges = ranges(dag, known);
+    is_implied(dag, condition, known, &ranges)
+}
+
 /// Whether a condition holds where the `known` ones do, in which the variables lie in `ranges`.
 fn is_implied(
     dag: &mut Dag,
@@ -111,8 +117,10 @@ fn excluded(
         return dag.is_zero(id).then_some(None);
     }
     // √0 has a value
-    let is_zero = need == Need::NotNegative && is_proved_zero(dag, id);
-    if !is_zero && simplest_range(dag, id, &everywhere).is_not_positive() {
+    if need == Need::NotNegative && is_proved_zero(dag, id) {
+        return None;
+    }
+    if simplest_range(dag, id, &everywhere).is_not_positive() {
         return Some(None);
     }
     if known.len() > MOST_COMPARED {

@@ -1,0 +1,149 @@
+//! Guards: what a run has to check of the conditions under which its quantities were proved.
+//!
+//! A proof of ∂ₜψ + ∇ψ·f = 0 holds where its conditions do. Most of them need no check: f or ψ
+//! has no value beyond, as beyond x > 0 where one of them has ln x, and a run that comes there
+//! ends. Two kinds are left.
+//!
+//! - Code has values beyond a sign condition: of x^k with an integer k, and of a component of
+//!   f^τ that was made from another component of f. There ψ may change along f.
+//! - ψ jumps where what it divides by is zero, as atan(y/x) does at x = 0. It is conserved on
+//!   both sides, but not across.
+//!
+//! A guard is a function that is positive where the condition holds, or, of u ≠ 0, that keeps
+//! its sign. It is emitted beside the interfaces of its region, and a run that crosses it ends.
+
+mod jumps;
+
+use std::collections::BTreeSet;
+
+use super::derivation::switching;
+use super::strategy::Strategy;
+use super::{Guard, proofs};
+use crate::algebra::{Dag, Function, Id, Math, Name};
+use crate::model::{Conservation, DomainCondition, Model, Parameter, Region};
+use crate::proofs::conditions::{conditions_of, domain, follows};
+use jumps::jumps;
+
+/// The guards of a region whose quantities are conserved on `sides`, by f^τ as `strategy` makes
+/// it.
+pub(super) fn guards(
+    dag: &mut Dag,
+    (states, parameters): (&[Name], &[Parameter]),
+    (index, region): (usize, &Region),
+    sides: &[Id],
+    strategy: &Strategy,
+) -> Vec<Guard> {
+    let mut found: Vec<(DomainCondition, Vec<usize>)> = Vec::new();
+    let mut note = |condition: DomainCondition, quantity: usize| match found
+        .iter_mut()
+        .find(|(known, _)| *known == condition)
+    {
+        Some((_, quantities)) if quantities.contains(&quantity) => {}
+        Some((_, quantities)) => quantities.push(quantity),
+        None => found.push((condition, vec![quantity])),
+    };
+    for (quantity, psi) in region.conserved.iter().enumerate() {
+        if let Conservation::Proved(conditions) = &psi.evidence {
+            for &condition in conditions {
+                let is_sign = !matches!(condition, DomainCondition::NonZero(_));
+                if is_sign && !ends_code(dag, condition, states, region, sides, strategy) {
+                    note(condition, quantity);
+                }
+            }
+        }
+        for zero in zeros(dag, psi.psi, sides) {
+            if jumps(dag, (states, parameters), psi.psi, zero) {
+                note(DomainCondition::NonZero(zero), quantity);
+            }
+        }
+    }
+    let arguments = [states, &[Model::time()]].concat();
+    found
+        .into_iter()
+        .map(|(condition, quantities)| {
+            let function = function(dag, condition);
+            let depends_on = dag.variables([function]);
+            Guard {
+                region: index,
+                condition,
+                quantities,
+                function,
+                derivatives: switching(dag, function, states),
+                is_fixed: !depends_on.iter().any(|name| arguments.contains(name)),
+            }
+        })
+        .collect()
+}
+
+/// The function that is positive where a condition holds, or not zero.
+fn function(dag: &mut Dag, condition: DomainCondition) -> Id {
+    match condition {
+        DomainCondition::Positive(u)
+        | DomainCondition::NotNegative(u)
+        | DomainCondition::NonZero(u) => u,
+        DomainCondition::WithinOne(u) => {
+            let one = dag.integer(1);
+            let square = dag.powi(u, 2);
+            dag.sub(one, square)
+        }
+    }
+}
+
+/// Whether emitted code has no value where a condition does not hold: the levels of ψ have none,
+/// or f and f^τ have none.
+fn ends_code(
+    dag: &mut Dag,
+    condition: DomainCondition,
+    states: &[Name],
+    region: &Region,
+    sides: &[Id],
+    strategy: &Strategy,
+) -> bool {
+    let psi: Vec<Id> = region.conserved.iter().map(|one| one.psi).collect();
+    if ends(dag, condition, &psi, sides) {
+        return true;
+    }
+    let discrete = match strategy {
+        Strategy::Midpoint { field }
+        | Strategy::SkewPairing { field, .. }
+        | Strategy::CrossProduct { field, .. } => &field.value,
+        Strategy::MinimalNorm { mean, .. } => &mean.value,
+    };
+    let discrete: Vec<Id> = discrete
+        .iter()
+        .map(|&component| proofs::coincide(dag, component, states))
+        .collect();
+    ends(dag, condition, &region.field, sides) && ends(dag, condition, &discrete, sides)
+}
+
+/// Whether one of `roots` has no value where a condition does not hold, because a root, a
+/// logarithm or an arc function has none.
+fn ends(dag: &mut Dag, condition: DomainCondition, roots: &[Id], sides: &[Id]) -> bool {
+    let nodes: Vec<Id> = (dag.reachable(roots.iter().copied()).into_iter())
+        .filter(|&id| match dag[id] {
+            Math::Call(Function::Sqrt | Function::Ln | Function::Asin | Function::Acos, _) => true,
+            Math::Pow([_, v]) => dag.as_constant(v).is_some_and(|v| !v.is_integer()),
+            _ => false,
+        })
+        .collect();
+    let known = conditions_of(dag, &nodes, sides);
+    follows(dag, condition, &known)
+}
+
+/// What ψ divides by.
+fn zeros(dag: &mut Dag, psi: Id, sides: &[Id]) -> Vec<Id> {
+    let bases: BTreeSet<Id> = (dag.reachable([psi]).into_iter())
+        .filter_map(|id| match dag[id] {
+            Math::Pow([base, _]) => Some(base),
+            _ => None,
+        })
+        .collect();
+    let conditions = domain(dag, &[psi], sides, &bases).conditions;
+    let zeros = conditions
+        .into_iter()
+        .filter_map(|condition| match condition {
+            DomainCondition::NonZero(u) => Some(u),
+            _ => None,
+        });
+    zeros.collect()
+}
