@@ -147,3 +147,90 @@ fn zeros(dag: &mut Dag, psi: Id, sides: &[Id]) -> Vec<Id> {
         });
     zeros.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::read;
+
+    /// The conditions that runs of a system check, with their quantities.
+    #[track_caller]
+    fn guards(items: &str) -> Vec<String> {
+        let text = format!("system S {{ {items} }}");
+        let scheme = read(text.parse().expect("tokens"));
+        let scheme = scheme.unwrap_or_else(|wrong| panic!("{items}: {:?}", wrong.messages()));
+        let guard = |guard: &super::Guard| {
+            let region = &scheme.model.regions[guard.region];
+            let condition = guard.condition.statement(scheme.dag());
+            format!("{}: {condition}", super::super::quantities(region, guard))
+        };
+        scheme.guards().map(guard).collect()
+    }
+
+    #[test]
+    fn conditions_at_which_code_ends_are_not_checked() {
+        for items in [
+            "state x, y; param a = 1, b = 1, c = 1, d = 1;
+             der(x) = x*(a - b*y); der(y) = y*(d*x - c);
+             conserved v = d*x - c*ln(x) + b*y - a*ln(y);",
+            "state x, y; der(x) = y; der(y) = -sqrt(x); conserved e = y^2/2 + 2*x^(3/2)/3;",
+            "state x, y; der(x) = 1; der(y) = sqrt(x); conserved e = y - 2*x*sqrt(x)/3;",
+            "state x, v; der(x) = v; der(v) = -asin(x);
+             conserved e = v^2/2 + x*asin(x) + sqrt(1 - x^2);",
+            "state x, v; param k = 4; der(x) = v; der(v) = -k*x^(k - 1); conserved e = v^2/2 + x^k;",
+            "state x, y, u, v; param m = 1; let r = sqrt(x^2 + y^2);
+             der(x) = u; der(y) = v; der(u) = -m*x/r^3; der(v) = -m*y/r^3;
+             conserved e = (u^2 + v^2)/2 - m/r; conserved l = v*(x*v - y*u) - m*x/r;",
+            // poles, and zeros at which nothing jumps
+            "state x, v; der(x) = v; der(v) = 1/x^3; conserved e = v^2/2 + 1/(2*x^2);",
+            "state x, v; der(x) = v; der(v) = -x/sqrt(x^2); conserved e = v^2/2 + sqrt(x^2);",
+            "state x, v; der(x) = v; der(v) = -1; conserved e = v^2/2 + x*sqrt(x^2)/sqrt(x^2);",
+            "state x, y; der(x) = 1; der(y) = 0; conserved e = y*exp(-1/x)*exp(1/x);",
+        ] {
+            assert_eq!(guards(items), Vec::<String>::new(), "{items}");
+        }
+    }
+
+    #[test]
+    fn conditions_beyond_which_code_has_values_are_checked() {
+        for (items, expected) in [
+            (
+                "state x, y; param k = 2; der(x) = y*x^k; der(y) = -sqrt(x^2)*x^k;
+                 conserved e = (x^2 + y^2)/2;",
+                "e: x > 0",
+            ),
+            // right, and each component of f^τ is made from the one that has a value everywhere
+            (
+                "state x, y; der(x) = y*sqrt(x^2); der(y) = -x*sqrt(x)^2;
+                 conserved e = (x^2 + y^2)/2;",
+                "e: x ≥ 0",
+            ),
+            (
+                "state x, y; der(x) = -y; der(y) = x; conserved angle = atan(y/x) - t;",
+                "angle: x ≠ 0",
+            ),
+            (
+                "state q, p; hamiltonian H = p^2/2 + q + sqrt(q^2)/q in (q, p);",
+                "H: q ≠ 0",
+            ),
+            (
+                "state x, y; der(x) = 1; der(y) = 0; conserved e = y + tanh(1/(x - t - y));",
+                "e: x - t - y ≠ 0",
+            ),
+        ] {
+            assert_eq!(guards(items), [expected], "{items}");
+        }
+    }
+
+    #[test]
+    fn a_region_makes_checks_superfluous() {
+        assert_eq!(
+            guards(
+                "state x, y; param k = 2; interface wall = x;
+                 region right where wall > 0 { der(x) = y*x^k; der(y) = -sqrt(x^2)*x^k;
+                                               conserved e = (x^2 + y^2)/2; }
+                 region left where wall < 0 { der(x) = y; der(y) = -x; conserved e = (x^2 + y^2)/2; }"
+            ),
+            Vec::<String>::new()
+        );
+    }
+}

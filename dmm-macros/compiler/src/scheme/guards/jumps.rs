@@ -126,7 +126,8 @@ fn jumps_along(dag: &Dag, name: &Name, point: &BTreeMap<Name, f64>, psi: Id, zer
         let mut low = RANGE.0 + width * place as f64;
         let mut high = low + width;
         let (start, end) = (at(zero, low), at(zero, high));
-        if !(start * end < 0.0) {
+        let changes_sign = start * end < 0.0;
+        if !changes_sign {
             return false;
         }
         for _ in 0..HALVINGS {
