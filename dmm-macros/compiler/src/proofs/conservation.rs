@@ -12,7 +12,7 @@ use crate::algebra::normal_form::decide_zero_on;
 use crate::algebra::{Dag, Id, Name, Verdict, evaluate_bounded, is_proved_zero, to_text};
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::proofs as codes;
-use crate::model::{Claim, Conservation, Conserved, Region};
+use crate::model::{Claim, Conservation, Conserved, Region, positive};
 
 /// `assume` wants this many points in the domain …
 const FEWEST_POINTS: usize = 64;
@@ -54,7 +54,7 @@ pub(super) fn examine(
     let roots: Vec<Id> = formulas.iter().copied().chain([residual]).collect();
     let refused = match verdict {
         Verdict::Proved => {
-            let both = on_both_sides(dag, variables, place, residual, &roots);
+            let both = on_both_sides(&mut dag.clone(), variables, place, residual, &roots);
             let domain = domain(dag, &roots, &place.sides, &both);
             return report_empty(place, psi, &domain, diagnostics)
                 .then_some((Conservation::Proved(domain.conditions), quantity));
@@ -108,7 +108,13 @@ fn decide_in(
     if verdict == Verdict::Proved || place.sides.is_empty() && all.len() == formulas.len() {
         return (verdict, formulas);
     }
-    (decide(dag, variables, residual, &all, &place.sides), all)
+    let mut scratch = dag.clone();
+    let sides = positive(&mut scratch, &place.sides);
+    let verdict = decide(&mut scratch, variables, residual, &all, &sides);
+    if let Verdict::Refuted(_) = verdict {
+        *dag = scratch;
+    }
+    (verdict, all)
 }
 
 /// Reports a domain that is empty; whether it is not.

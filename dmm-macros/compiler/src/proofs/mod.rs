@@ -35,7 +35,9 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Dag, Id, Name, differentiate, gradient, is_proved_zero};
 use crate::diagnostics::Diagnostics;
-use crate::model::{Conservation, DomainCondition, Independence, Model, Region, sides as sides_of};
+use crate::model::{
+    Conservation, DomainCondition, Independence, Model, Region, Sign, sides as sides_of,
+};
 
 /// Proves what `model` declares; what is false or cannot be proved is reported.
 pub fn check(model: &mut Model, diagnostics: &mut Diagnostics) {
@@ -66,7 +68,7 @@ pub fn domain(model: &mut Model, regions: &[usize], psi: Id) -> Vec<DomainCondit
     {
         formulas.extend(conservation::formulas(&model.dag, &region.field, &quantity));
         if regions.len() == 1 {
-            sides = sides_of(&mut model.dag, &model.interfaces, region);
+            sides = sides_of(&model.interfaces, region);
         }
     }
     conditions::domain(&mut model.dag, &formulas, &sides, &BTreeSet::new()).conditions
@@ -84,8 +86,10 @@ fn examine(
     let Some(region) = model.regions.get(index) else {
         return (Vec::new(), Independence::Nothing);
     };
-    let sides = sides_of(dag, &model.interfaces, region);
-    let place = Place { region, sides };
+    let place = Place {
+        region,
+        sides: sides_of(&model.interfaces, region),
+    };
     let mut evidence = Vec::new();
     let mut quantities = Vec::new();
     for psi in &region.conserved {
@@ -134,11 +138,11 @@ impl Variables {
     }
 }
 
-/// A region with what is positive in it.
+/// A region with its sides.
 struct Place<'a> {
     region: &'a Region,
-    /// g or −g of its sides.
-    sides: Vec<Id>,
+    /// g of each side, with its sign in the region.
+    sides: Vec<(Id, Sign)>,
 }
 
 /// A conserved quantity with its derivatives.

@@ -20,6 +20,7 @@ use super::place::decide;
 use super::{Place, Variables};
 use crate::algebra::evaluate::Interval;
 use crate::algebra::{Dag, Id, Math, Name, Verdict, evaluate::enclose, normalise};
+use crate::model::positive;
 
 /// Bases of which every combination of signs is tried.
 const MOST_BASES: usize = 3;
@@ -205,8 +206,9 @@ impl Problem<'_> {
         };
         let mut roots = Vec::new();
         let mut sides = Vec::new();
-        for (&root, target) in (self.roots.iter().map(|root| (root, 0)))
-            .chain(self.place.sides.iter().map(|side| (side, 1)))
+        let given = positive(dag, &self.place.sides);
+        for (&root, target) in
+            (self.roots.iter().map(|root| (root, 0))).chain(given.iter().map(|side| (side, 1)))
         {
             let Some(turned) = turn(dag, root) else {
                 return false;

@@ -81,7 +81,7 @@ fn derive_region(
         canonical: &region.canonical,
     };
     let (strategy, refusals) = choose(dag, &context);
-    let sides = sides(dag, &model.interfaces, region);
+    let sides = sides(&model.interfaces, region);
     let proofs =
         proofs::prove(
             dag,

@@ -20,7 +20,7 @@ use super::derivation::switching;
 use super::strategy::Strategy;
 use super::{Guard, proofs};
 use crate::algebra::{Dag, Function, Id, Math, Name};
-use crate::model::{Conservation, DomainCondition, Model, Parameter, Region};
+use crate::model::{Conservation, DomainCondition, Model, Parameter, Region, Sign};
 use crate::proofs::conditions::{conditions_of, domain, follows};
 use jumps::jumps;
 
@@ -30,9 +30,11 @@ pub(super) fn guards(
     dag: &mut Dag,
     (states, parameters): (&[Name], &[Parameter]),
     (index, region): (usize, &Region),
-    sides: &[Id],
+    sides: &[(Id, Sign)],
     strategy: &Strategy,
 ) -> Vec<Guard> {
+    // the scheme of a region without guards is as if nothing had been asked
+    let scratch = &mut dag.clone();
     let mut found: Vec<(DomainCondition, Vec<usize>)> = Vec::new();
     let mut note = |condition: DomainCondition, quantity: usize| match found
         .iter_mut()
@@ -46,17 +48,21 @@ pub(super) fn guards(
         if let Conservation::Proved(conditions) = &psi.evidence {
             for &condition in conditions {
                 let is_sign = !matches!(condition, DomainCondition::NonZero(_));
-                if is_sign && !ends_code(dag, condition, states, region, sides, strategy) {
+                if is_sign && !ends_code(scratch, condition, states, region, sides, strategy) {
                     note(condition, quantity);
                 }
             }
         }
-        for zero in zeros(dag, psi.psi, sides) {
-            if jumps(dag, (states, parameters), psi.psi, zero) {
+        for zero in zeros(scratch, psi.psi, sides) {
+            if jumps(scratch, (states, parameters), psi.psi, zero) {
                 note(DomainCondition::NonZero(zero), quantity);
             }
         }
     }
+    if found.is_empty() {
+        return Vec::new();
+    }
+    dag.clone_from(scratch);
     let arguments = [states, &[Model::time()]].concat();
     found
         .into_iter()
@@ -96,7 +102,7 @@ fn ends_code(
     condition: DomainCondition,
     states: &[Name],
     region: &Region,
-    sides: &[Id],
+    sides: &[(Id, Sign)],
     strategy: &Strategy,
 ) -> bool {
     let psi: Vec<Id> = region.conserved.iter().map(|one| one.psi).collect();
@@ -118,7 +124,7 @@ fn ends_code(
 
 /// Whether one of `roots` has no value where a condition does not hold, because a root, a
 /// logarithm or an arc function has none.
-fn ends(dag: &mut Dag, condition: DomainCondition, roots: &[Id], sides: &[Id]) -> bool {
+fn ends(dag: &mut Dag, condition: DomainCondition, roots: &[Id], sides: &[(Id, Sign)]) -> bool {
     let nodes: Vec<Id> = (dag.reachable(roots.iter().copied()).into_iter())
         .filter(|&id| match dag[id] {
             Math::Call(Function::Sqrt | Function::Ln | Function::Asin | Function::Acos, _) => true,
@@ -131,7 +137,7 @@ fn ends(dag: &mut Dag, condition: DomainCondition, roots: &[Id], sides: &[Id]) -
 }
 
 /// What ψ divides by.
-fn zeros(dag: &mut Dag, psi: Id, sides: &[Id]) -> Vec<Id> {
+fn zeros(dag: &mut Dag, psi: Id, sides: &[(Id, Sign)]) -> Vec<Id> {
     let bases: BTreeSet<Id> = (dag.reachable([psi]).into_iter())
         .filter_map(|id| match dag[id] {
             Math::Pow([base, _]) => Some(base),

@@ -13,7 +13,7 @@ use super::strategy::minimal_norm::symbols;
 use super::strategy::{Context, Strategy, cross_product, skew_pairing};
 use crate::algebra::normal_form::decide_zero_on;
 use crate::algebra::{Dag, Function, Id, Math, Name, PairFunction, Verdict, at_end, at_start};
-use crate::model::Model;
+use crate::model::{Model, Sign, positive};
 
 /// What is known of an identity that a scheme rests on. One that is false is a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,33 +41,35 @@ pub struct Proofs {
 /// What is done with an identity that is false: its name and where it fails.
 type Report<'a> = &'a mut dyn FnMut(&str, String);
 
-/// Proves the identities of what was derived from `psi` in a region where every one of `sides`
-/// is positive; one that is false is reported.
+/// Proves the identities of what was derived from `psi` in a region with these `sides`; one that
+/// is false is reported.
 ///
 /// f^τ(t, x, t, x) = f(t, x) is asked where every component of f and Λ has a value: one
 /// component of f^τ may be made from another one of f.
 pub(super) fn prove(
     dag: &mut Dag,
     context: &Context<'_>,
-    (psi, sides): (&[Id], &[Id]),
+    (psi, sides): (&[Id], &[(Id, Sign)]),
     strategy: &Strategy,
     report: Report<'_>,
 ) -> Proofs {
     let telescopes = telescoping(dag, context, psi);
     let conserves = conservation(dag, context, strategy);
     let consistent = consistency(dag, context, strategy);
-    let everywhere: &[Id] = &[];
+    let telescopes = all_zero(dag, (&telescopes, &[]), "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ", report);
+    let conserves = all_zero(dag, (&conserves, &[]), "Λ^τ f^τ + ∂ₜ^τψ = 0", report);
+    let scratch = &mut dag.clone();
     let mut domain: Vec<Id> = psi.iter().chain(context.field).copied().collect();
     domain.extend(context.multiplier.iter().flatten());
-    domain.extend(sides.iter().map(|&side| dag.call(Function::Ln, side)));
-    domain.retain(|&formula| dag.as_constant(formula).is_none());
-    let mut all_zero = |roots: &[Id], domain: &[Id], identity: &str| {
-        all_zero(dag, (roots, domain), identity, report)
-    };
+    for side in positive(scratch, sides) {
+        domain.push(scratch.call(Function::Ln, side));
+    }
+    domain.retain(|&formula| scratch.as_constant(formula).is_none());
+    let identity = "f^τ(t, x, t, x) = f(t, x)";
     Proofs {
-        telescopes: all_zero(&telescopes, everywhere, "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ"),
-        conserves: all_zero(&conserves, everywhere, "Λ^τ f^τ + ∂ₜ^τψ = 0"),
-        consistent: all_zero(&consistent, &domain, "f^τ(t, x, t, x) = f(t, x)"),
+        telescopes,
+        conserves,
+        consistent: all_zero(scratch, (&consistent, &domain), identity, report),
         levels: Vec::new(),
     }
 }

@@ -31,7 +31,7 @@ use num_traits::Signed;
 
 use crate::algebra::evaluate::{Interval, enclose};
 use crate::algebra::{Dag, Function, Id, Math, Name};
-use crate::model::DomainCondition;
+use crate::model::{DomainCondition, Sign, positive};
 use redundant::{equal_condition, is_within_by, without_consequences, without_multiples};
 
 /// Where formulas are defined.
@@ -42,10 +42,14 @@ pub(crate) struct Domain {
     pub(crate) contradiction: Option<String>,
 }
 
-/// What has to hold for every node of `roots` to be defined where every one of `sides` is
-/// positive; powers of a base in `both` with an exponent that is no number have values on both
+/// What has to hold for every node of `roots` to be defined on `sides`; powers of a base in `both` with an exponent that is no number have values on both
 /// sides of its zeros.
-pub(crate) fn domain(dag: &mut Dag, roots: &[Id], sides: &[Id], both: &BTreeSet<Id>) -> Domain {
+pub(crate) fn domain(
+    dag: &mut Dag,
+    roots: &[Id],
+    sides: &[(Id, Sign)],
+    both: &BTreeSet<Id>,
+) -> Domain {
     let mut found = Conditions {
         both: both.clone(),
         ..Conditions::default()
@@ -58,7 +62,11 @@ pub(crate) fn domain(dag: &mut Dag, roots: &[Id], sides: &[Id], both: &BTreeSet<
 
 /// What has to hold for the operations of `nodes` alone to have values, those of their arguments
 /// apart.
-pub(crate) fn conditions_of(dag: &mut Dag, nodes: &[Id], sides: &[Id]) -> Vec<DomainCondition> {
+pub(crate) fn conditions_of(
+    dag: &mut Dag,
+    nodes: &[Id],
+    sides: &[(Id, Sign)],
+) -> Vec<DomainCondition> {
     let mut found = Conditions::default();
     for &node in nodes {
         found.node(dag, node);
@@ -218,7 +226,7 @@ impl Conditions {
 
     /// In the order in which the arguments were written, without what follows from the rest or
     /// from the `sides`.
-    fn finish(self, dag: &mut Dag, sides: &[Id]) -> Domain {
+    fn finish(self, dag: &mut Dag, sides: &[(Id, Sign)]) -> Domain {
         let mut kept: Vec<(Id, Need)> = Vec::new();
         for (id, need) in self.needs {
             // u > 0 with u ≥ 0 known is u ≠ 0
@@ -238,14 +246,21 @@ impl Conditions {
                 None => kept.push((id, need)),
             }
         }
-        let contradiction = within::contradiction(dag, &kept, &self.within_one, sides);
+        // what is asked for once does not become part of the model
+        let scratch = &mut dag.clone();
+        let known = &positive(scratch, sides);
+        let contradiction = within::contradiction(scratch, &kept, &self.within_one, known);
         let within = self.within_one.into_iter();
         let within: Vec<Id> = within
-            .filter(|&u| !is_within_by(dag, &kept, u) && !within::holds_within_one(dag, u, sides))
+            .filter(|&u| {
+                !is_within_by(dag, &kept, u) && !within::holds_within_one(scratch, u, known)
+            })
             .collect();
         let kept = without_consequences(dag, kept);
         let kept = without_multiples(dag, kept);
-        let kept = within::not_implied(dag, kept, sides);
+        let scratch = &mut dag.clone();
+        let known = &positive(scratch, sides);
+        let kept = within::not_implied(scratch, kept, known);
         let needs = kept.into_iter().map(|(id, need)| match need {
             Need::NotNegative => DomainCondition::NotNegative(id),
             Need::NonZero => DomainCondition::NonZero(id),
