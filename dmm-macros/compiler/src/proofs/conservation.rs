@@ -45,7 +45,7 @@ pub(super) fn examine(
     }
     let formulas = formulas(dag, &region.field, &quantity);
     if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, &quantity) {
-        let domain = domain(dag, &formulas, &place.sides, &BTreeSet::new());
+        let domain = domain(&mut dag.clone(), &formulas, &place.sides, &BTreeSet::new());
         return report_empty(place, psi, &domain, diagnostics)
             .then_some((Conservation::ByConstruction, quantity));
     }
@@ -68,7 +68,7 @@ pub(super) fn examine(
             (codes::NOT_CONSERVED, message)
         }
         Verdict::Undecided => {
-            let domain = domain(dag, &roots, &place.sides, &BTreeSet::new());
+            let domain = domain(&mut dag.clone(), &roots, &place.sides, &BTreeSet::new());
             if !report_empty(place, psi, &domain, diagnostics) {
                 return None;
             }
