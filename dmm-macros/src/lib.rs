@@ -178,6 +178,62 @@ use proc_macro::TokenStream;
 /// }
 /// ```
 ///
+/// # Where a proof holds
+///
+/// A proof of ∂ₜψ + ∇ψ·f = 0 holds in the region, where ψ, its derivatives and f have values. The
+/// listing names the conditions: x > 0 where one of them has ln x. Most of them end a run by
+/// themselves, because the formulas have no value beyond. The others are `checked`, at the start
+/// of a run, where it enters the region, and in each step like an interface:
+///
+/// - of x^k with a parameter k there is a value also where x < 0, if k is an integer; the
+///   condition x > 0 is left if the proof does not hold there, for even and for odd k;
+/// - a quantity that jumps where it divides by zero, as atan(y/x) does at x = 0, is conserved on
+///   each side, and not across.
+///
+/// A run that comes to such a condition ends with an error that names it, and the solution up to
+/// there is kept; nothing is corrected towards a level that is not conserved. To go on, declare
+/// an interface there, and beyond it a region without the quantity, or with what is conserved
+/// there. A region that implies a condition makes the check superfluous:
+///
+/// ```
+/// use dmm_runtime::{Error, Integrator, System, Taylor, pws};
+///
+/// pws! {
+///     /// A rotation with its angle.
+///     pub system Rotation {
+///         state x, y;
+///         der(x) = -y;
+///         der(y) = x;
+///         conserved angle = atan(y / x) - t;
+///     }
+/// }
+///
+/// pws! {
+///     /// The same, which goes on without the angle where x < 0.
+///     pub system Half {
+///         state x, y;
+///         interface side = x;
+///         der(x) = -y;
+///         der(y) = x;
+///         region right where side > 0 {
+///             conserved angle = atan(y / x) - t;
+///         }
+///         region left where side < 0 {}
+///     }
+/// }
+///
+/// let stopped = Integrator::new(&Rotation {}, Taylor::tolerance(1e-9))
+///     .initial(0.0, [1.0, 0.5])
+///     .run_until(3.0)
+///     .unwrap_err();
+/// let Error::ConditionFails { condition, quantity, .. } = stopped.error() else {
+///     panic!("{}", stopped.error());
+/// };
+/// assert_eq!((*condition, *quantity), ("x ≠ 0", "angle"));
+/// assert_eq!(Rotation::GUARDS.len(), 1);
+/// assert!(Half::GUARDS.is_empty());
+/// ```
+///
 /// # What is emitted
 ///
 /// For `pub system Harmonic`: a struct `Harmonic` with a public field a parameter (`f64`, or

@@ -51,6 +51,26 @@ pub enum Error {
         /// Region.
         region: &'static str,
     },
+    /// The solution leaves the condition under which a quantity was proved to be conserved; see
+    /// [`Guard`](crate::Guard). Where it may go on without the quantity, or with another one,
+    /// the declaration has an interface there and a region beyond.
+    #[error(
+        "at t = {t}, x = {x:?} the condition {condition} fails, under which {quantity} was proved to \
+         be conserved in region `{region}`: to go on, declare an interface there, and beyond it a \
+         region with what is conserved there"
+    )]
+    ConditionFails {
+        /// Time.
+        t: f64,
+        /// State.
+        x: Vec<f64>,
+        /// The condition.
+        condition: &'static str,
+        /// The name of the quantity, or the names of several.
+        quantity: &'static str,
+        /// Region.
+        region: &'static str,
+    },
     /// Both vector fields point at the interface, so that the solution would slide on it.
     #[error(
         "at t = {t}, x = {x:?} the vector fields of both sides point at interface `{interface}` \

@@ -12,7 +12,7 @@ use crate::state::State;
 use crate::statistics::Statistics;
 use crate::system::{System, Vector};
 use crate::time::Time;
-use crate::transition::{Locator, NewtonLocator, Start, check_region, find_region};
+use crate::transition::{Locator, NewtonLocator, Start, check_guards, check_region, find_region};
 use crate::walk::{Walk, run_segments};
 
 /// Beyond it products of times overflow.
@@ -184,10 +184,12 @@ where
     pub(crate) fn start(&self, t_end: f64) -> Result<Start<Sys::Region>, Error> {
         self.check_input(t_end)?;
         let system = self.integrator.system;
-        match self.region {
+        let start = match self.region {
             Some(region) => check_region(system, region, self.t0, &self.x0),
             None => find_region(system, self.t0, &self.x0),
-        }
+        }?;
+        check_guards(system, start.region, self.t0, &self.x0)?;
+        Ok(start)
     }
 
     pub(crate) fn progress(&self, t_end: f64) -> Sch::Progress {

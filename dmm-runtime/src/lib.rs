@@ -116,7 +116,7 @@ pub use solution::{Interrupted, Solution};
 pub use state::State;
 pub use statistics::Statistics;
 pub use system::{
-    Boundary, Flow, FlowVisitor, Matrix, Side, Solvability, System, Unbounded, Vector,
+    Boundary, Flow, FlowVisitor, Guard, Matrix, Side, Solvability, System, Unbounded, Vector,
 };
 pub use time::Time;
 pub use transition::{Crossing, Located, Locator, NewtonLocator};

@@ -5,5 +5,5 @@ pub use crate::scalar::Scalar;
 pub use crate::series;
 pub use crate::sparse::sparse;
 pub use crate::system::{
-    Boundary, Flow, FlowVisitor, Matrix, Side, Solvability, System, Unbounded, Vector,
+    Boundary, Flow, FlowVisitor, Guard, Matrix, Side, Solvability, System, Unbounded, Vector,
 };

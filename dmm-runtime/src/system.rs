@@ -31,6 +31,9 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     const PARAMETERS: &'static [&'static str];
     /// The names of the interfaces.
     const INTERFACES: &'static [&'static str];
+    /// The conditions under which quantities were proved to be conserved, as far as a run has to
+    /// check them; see [`Guard`].
+    const GUARDS: &'static [Guard] = &[];
     /// Every region, in the order of declaration.
     const REGIONS: &'static [Self::Region];
     /// The declaration, as text.
@@ -43,6 +46,16 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
 
     /// The names of the quantities that are conserved in a region.
     fn conserved_names(region: Self::Region) -> &'static [&'static str];
+
+    /// The name of an interface or, behind them, the condition of a guard: what an index of
+    /// [`Boundary::SIDES`] stands for.
+    fn boundary_name(index: usize) -> &'static str {
+        let guard = index.checked_sub(Self::INTERFACES.len());
+        let guard = guard.and_then(|number| Self::GUARDS.get(number));
+        let name = Self::INTERFACES.get(index).copied();
+        name.or(guard.map(|guard| guard.condition))
+            .unwrap_or_default()
+    }
 
     /// On which side of each interface a region lies: the sign of g, in the order of
     /// [`System::INTERFACES`].
@@ -103,6 +116,49 @@ impl<const N: usize> FlowVisitor<N> for Conserved<'_, N> {
     fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Vec<f64> {
         flow.conserved(self.t, self.x).iter().copied().collect()
     }
+}
+
+/// A condition under which quantities of a region were proved to be conserved, and beyond which
+/// the emitted code has values nevertheless.
+///
+/// Of x^k the compiler knows that k is a parameter; for an integer k there is a value also where
+/// x < 0. A proof that needs x > 0 says nothing there. Where neither the region nor a root or a
+/// logarithm in the formulas keeps solutions from leaving the condition, a run checks it: at its
+/// start, where it enters the region, and in each step, in which a guard is watched like an
+/// interface. What comes to it ends as [`Error::ConditionFails`](crate::Error::ConditionFails),
+/// and nothing is ever corrected towards a level beyond.
+///
+/// ```
+/// use dmm_runtime::{Error, Integrator, Symmetric, System, pws};
+///
+/// pws! {
+///     /// ẏ = |x| x: y − x³/3 is conserved where x > 0.
+///     pub system Ramp {
+///         state x, y;
+///         param k = 2;
+///         der(x) = 1;
+///         der(y) = sqrt(x^2) * x^k / x^k * x;
+///         conserved e = y - x^3 / 3;
+///     }
+/// }
+///
+/// assert_eq!(Ramp::GUARDS[0].condition, "x > 0");
+/// let ramp = Ramp::default();
+/// let integrator = Integrator::new(&ramp, Symmetric::step_size(0.01));
+/// assert!(integrator.initial(0.0, [1.0, 0.5]).run_until(0.5).is_ok());
+/// let stopped = integrator.initial(0.0, [-1.0, 0.5]).run_until(0.5).unwrap_err();
+/// assert!(matches!(stopped.error(), Error::ConditionFails { quantity: "e", .. }));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Guard {
+    /// The index of the region in [`System::REGIONS`].
+    pub region: usize,
+    /// The condition, as text.
+    pub condition: &'static str,
+    /// The names of the quantities.
+    pub quantities: &'static str,
+    /// Whether the condition is u ≠ 0, so that the sign of u is kept.
+    pub keeps_sign: bool,
 }
 
 /// The side of an interface.
@@ -169,8 +225,16 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
     /// f at the origin and far out along each axis, and the flow is exact.
     const AFFINE: bool = false;
 
-    /// The interfaces that bound the region.
+    /// Whether a guard of the region keeps the sign that it has where the region is entered.
+    const KEEPS_SIGNS: bool = false;
+
+    /// The interfaces that bound the region, and its guards.
     fn boundary(&self) -> &Self::Boundary;
+
+    /// The flow with guards that are positive at (t, x), of those that keep a sign.
+    fn oriented(&self, _t: S, _x: &Vector<S, N>) -> Self {
+        self.clone()
+    }
 
     /// f(t, x)
     fn vector_field(&self, t: S, x: &Vector<S, N>) -> Vector<S, N>;
@@ -230,9 +294,11 @@ pub trait Flow<S: Scalar, const N: usize, const M: usize>: Clone {
 
 /// The interfaces that bound a region.
 ///
-/// Functions take the index of the interface in [`System::INTERFACES`].
+/// Functions take the index of the interface in [`System::INTERFACES`]. Behind the interfaces
+/// follow the [`System::GUARDS`], which are positive where their conditions hold: the first one
+/// has the index `INTERFACES.len()`.
 pub trait Boundary<S: Scalar, const N: usize>: Clone {
-    /// The indices of the interfaces that bound the region, with its side.
+    /// The indices of the interfaces that bound the region, with its side, and those of its guards.
     const SIDES: &'static [(usize, Side)];
     /// Whether no g depends on the time.
     const AUTONOMOUS: bool;
@@ -258,6 +324,11 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
     /// The interfaces over other scalars; see [`Flow::over`].
     fn over<Other: Scalar>(&self) -> Self::Over<Other>;
 
+    /// The same with guards that are positive at (t, x); see [`Flow::oriented`].
+    fn oriented(&self, _t: S, _x: &Vector<S, N>) -> Self {
+        self.clone()
+    }
+
     /// g(t, x)
     fn switching_function(&self, interface: usize, t: S, x: &Vector<S, N>) -> S;
 
@@ -267,8 +338,9 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
     /// ∂ₜg and ∇g at (t, x).
     fn switching_gradient(&self, interface: usize, t: S, x: &Vector<S, N>) -> (S, Vector<S, N>);
 
-    /// The Taylor coefficients of every g, in the order of [`System::INTERFACES`], and of what
-    /// they are computed from.
+    /// The Taylor coefficients of every g, in the order of [`System::INTERFACES`] and
+    /// [`System::GUARDS`], and of what they
+    /// are computed from.
     type Series<const P: usize>: Clone + AsRef<[[S; P]]> + AsMut<[[S; P]]>;
 
     /// Whether [`Boundary::advance`] is straight-line code for each order.

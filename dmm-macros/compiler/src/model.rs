@@ -115,6 +115,24 @@ pub enum Sign {
     Positive,
 }
 
+/// The switching functions of a region's sides, each with its sign in the region.
+pub fn sides(interfaces: &[Interface], region: &Region) -> Vec<(Id, Sign)> {
+    let side = |side: &Side| {
+        let interface = interfaces.get(side.interface)?;
+        Some((interface.switching_function, side.sign))
+    };
+    region.sides.iter().filter_map(side).collect()
+}
+
+/// The functions g or −g that are positive on sides.
+pub fn positive(dag: &mut Dag, sides: &[(Id, Sign)]) -> Vec<Id> {
+    let functions = sides.iter().map(|&(g, sign)| match sign {
+        Sign::Positive => g,
+        Sign::Negative => dag.neg(g),
+    });
+    functions.collect()
+}
+
 /// A conserved quantity ψ(t, x): ∂ₜψ + ∇ψ·f = 0.
 #[derive(Debug, Clone)]
 pub struct Conserved {

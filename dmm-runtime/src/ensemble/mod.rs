@@ -75,7 +75,8 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// registers, each with steps and transitions of its own, where the processor has what that takes
 /// (x86-64 with AVX2 and FMA, aarch64; found out when the program runs). They are of order 18 at
 /// every tolerance; results are as accurate as those of an [`Integrator`], but not the same to
-/// the last bits. The other schemes integrate one trajectory at a time, on all cores.
+/// the last bits. The other schemes, and systems with a [`Guard`](crate::Guard), are integrated
+/// one trajectory at a time, on all cores.
 ///
 /// ```
 /// use dmm_runtime::{Ensemble, Member, Taylor, pws};
@@ -164,8 +165,9 @@ impl<Sch: Scheme> Ensemble<Sch> {
         sink: impl FnMut(usize, Outcome<Sys::Region, N>) -> ControlFlow<()>,
     ) -> usize {
         let members = members.into_iter();
-        let lanes = self.lanes && N <= MOST_STATES && follow_state::<Sys, N>();
-        let vectorised = match (lanes, self.scheme.in_lanes()) {
+        let may = self.lanes && N <= MOST_STATES && Sys::GUARDS.is_empty();
+        let in_lanes = may && follow_state::<Sys, N>();
+        let vectorised = match (in_lanes, self.scheme.in_lanes()) {
             (true, Some(taylor)) => Vectorised::of::<Sys, N>().map(|how| (how, taylor)),
             _ => None,
         };

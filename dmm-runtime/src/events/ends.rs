@@ -11,7 +11,7 @@
 //! coefficients of order 2 of g and H, which is Σ (j − 3) gⱼ hʲ.
 
 use crate::events::cubic::{Course, Cubic, Doubt, Reading};
-use crate::events::guard::NOISE;
+use crate::events::switching::NOISE;
 use crate::scalar::Scalar;
 use crate::series::jet::FIRST;
 

@@ -10,9 +10,9 @@
 //! count: g has to rise until it is above its rounding error.
 
 use super::cubic::{Course, Cubic, Doubt, Reading};
-use super::guard::{ENCLOSED, Guard};
 use super::interval::Interval;
 use super::path::Path;
+use super::switching::{ENCLOSED, Switching};
 use crate::scalar::Scalar;
 
 /// Parts of a path that are looked at before it is given up.
@@ -40,7 +40,7 @@ pub(crate) enum Met {
 /// A search of the zeros of g − `level`, g positive in the region, along a path up to `end`.
 #[derive(Clone, Copy)]
 pub(crate) struct Search<'a, const N: usize> {
-    pub(crate) guard: &'a dyn Guard<N>,
+    pub(crate) switching: &'a dyn Switching<N>,
     pub(crate) interface: usize,
     /// The sign of g in the region.
     pub(crate) sign: f64,
@@ -190,7 +190,7 @@ impl<const N: usize> Search<'_, N> {
     }
 
     fn reading(&self, s: f64) -> Reading {
-        let (value, rate) = self.guard.point(self.interface, self.path, s);
+        let (value, rate) = self.switching.point(self.interface, self.path, s);
         Reading {
             value: self.sign * value - self.level,
             rate: self.sign * rate,
@@ -199,7 +199,7 @@ impl<const N: usize> Search<'_, N> {
 
     fn place(&self, s: f64) -> Place {
         let noise = self
-            .guard
+            .switching
             .noise(self.interface, self.path.time(s), &self.path.state(s));
         Place {
             s,
@@ -210,7 +210,9 @@ impl<const N: usize> Search<'_, N> {
 
     fn part(&self, start: Place, s: f64) -> Part {
         let end = self.place(s);
-        let mut g = self.guard.enclosed(self.interface, self.path, start.s, s);
+        let mut g = self
+            .switching
+            .enclosed(self.interface, self.path, start.s, s);
         g = g.map(|g| g.turned(self.sign));
         g[0] -= Interval::from_f64(self.level);
         Part {
@@ -289,7 +291,7 @@ mod tests {
         noise: f64,
     }
 
-    impl Guard<1> for Function {
+    impl Switching<1> for Function {
         fn point(&self, _: usize, _: &Path<'_, 1>, s: f64) -> (f64, f64) {
             ((self.value)(s), (self.slope)(s))
         }
@@ -310,7 +312,7 @@ mod tests {
             coefficients: [&[0.0][..]],
         };
         let search = Search {
-            guard: function,
+            switching: function,
             interface: 0,
             sign: 1.0,
             path: &path,

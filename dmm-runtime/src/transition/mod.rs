@@ -1,12 +1,14 @@
 //! Transitions: where an integration starts, whether an interface is reached in a step, and
 //! the point where it is crossed.
 
+mod guards;
 mod locate;
 mod meeting;
 mod reading;
 mod start;
 pub(crate) mod watch;
 
+pub(crate) use guards::{check_guards, guard, guard_error};
 pub use locate::{Crossing, Located, Locator, NewtonLocator};
 pub(crate) use meeting::{Meeting, neighbour};
 pub(crate) use start::{Start, check_region, find_region};

@@ -18,7 +18,7 @@ use crate::series::jet::Jet;
 use crate::state::State;
 use crate::system::{Boundary, Flow, System, Vector};
 use crate::time::Time;
-use crate::transition::Locator;
+use crate::transition::{Locator, guard};
 use crate::walk::expand::Here;
 use crate::walk::{SegmentEnd, Walk};
 
@@ -108,13 +108,15 @@ where
         tau: f64,
     ) -> Result<SegmentEnd, Error> {
         let interface = found.interface;
-        let Some((time, state, rate)) = self.locate::<P, M, F, U>(flow, level, jet, found, tau)
-        else {
+        let located = self
+            .locate::<P, M, F, U>(flow, level, jet, found, tau)
+            .or_else(|| self.about_guard::<P, M, F, U>(jet, found));
+        let Some((time, state, rate)) = located else {
             return Err(Error::LocationFailed {
                 t: self.time.value,
                 x: self.state.x.iter().copied().collect(),
                 step_size: tau,
-                interface: Sys::INTERFACES[interface],
+                interface: Sys::boundary_name(interface),
             });
         };
         let elapsed = time.since(self.time).clamp(0.0, tau);
@@ -128,6 +130,20 @@ where
             return Ok(SegmentEnd::Stopped);
         }
         Ok(SegmentEnd::Crossed { interface, rate })
+    }
+
+    /// About where the solution comes to a guard, on which f may have no value; nothing for an
+    /// interface.
+    #[cold]
+    fn about_guard<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
+        &self,
+        jet: &Jet<F, U, N, M, P>,
+        found: &Found,
+    ) -> Option<(Time, State<N>, f64)> {
+        guard::<Sys, N>(found.interface)?;
+        let state = self.state.after(&jet.increment(found.elapsed)).normalised();
+        let time = self.time.after(found.elapsed);
+        is_finite(&state.x).then_some((time, state, f64::NAN))
     }
 
     /// t̂*, x̂* and dg/dt there.
@@ -186,11 +202,13 @@ where
         (mut time, mut state): (Time, State<N>),
         mut approach: Approach<N>,
     ) -> Option<(Time, State<N>, f64)> {
-        /// A displacement of this part of the state has an error of second order far below a
+        /// A displacement of this part of the state or of the step has an error of second order far below a
         /// rounding error of doubles, and after one more of pairs.
         const SMALL: f64 = 1e-11;
         let corrects = self.scheme.corrects_level();
-        let weights = Weights::new(&state.x, &(state.x - self.state.x));
+        let increment = state.x - self.state.x;
+        let weights = Weights::new(&state.x, &increment);
+        let small = SMALL * SMALL * (dot(&state.x, &state.x) + dot(&increment, &increment));
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
@@ -200,7 +218,6 @@ where
             let displacement = approach.remove(&mut time, &mut state, &off);
             let size = dot(&displacement, &displacement);
             approach = Approach::at(flow, interface, time, &state);
-            let small = SMALL * SMALL * dot(&state.x, &state.x);
             // where g hardly changes, its rounding errors in doubles move the point further
             if size <= small || 4.0 * size >= before {
                 break;
@@ -218,7 +235,6 @@ where
                 false => Vector::zeros(),
             };
             let displacement = approach.remove(&mut time, &mut state, &off);
-            let small = SMALL * SMALL * dot(&state.x, &state.x);
             if dot(&displacement, &displacement) <= small {
                 return is_finite(&state.x).then_some((time, state, approach.rate));
             }

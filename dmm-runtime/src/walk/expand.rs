@@ -4,7 +4,7 @@
 use crate::error::{Error, StepFailure};
 use crate::events::cubic::Course;
 use crate::events::ends::Ends;
-use crate::events::guard::NOISE;
+use crate::events::switching::NOISE;
 use crate::events::{Enclosed, Met, Path, Search};
 use crate::level::Level;
 use crate::linear::{dot, is_finite};
@@ -267,12 +267,12 @@ where
             unit: jet.unit(),
             coefficients: std::array::from_fn(|i| &jet.coefficients()[i][..]),
         };
-        let guard = Enclosed::new(flow.boundary());
+        let enclosed = Enclosed::new(flow.boundary());
         let mut first: Option<Found> = None;
         let mut end = jet.in_units(tau);
         for &(interface, side) in sides::<N, M, F>() {
             let search = Search {
-                guard: &guard,
+                switching: &enclosed,
                 interface,
                 sign: side.sign(),
                 path: &path,

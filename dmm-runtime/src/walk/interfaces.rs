@@ -4,7 +4,7 @@
 use crate::error::Error;
 use crate::events::cubic::Course;
 use crate::events::ends::{Decay, Ends};
-use crate::events::{Enclosed, Guard, Met, Path, Search};
+use crate::events::{Enclosed, Met, Path, Search, Switching};
 use crate::level::Level;
 use crate::linear::is_finite;
 use crate::observer::Observer;
@@ -13,7 +13,7 @@ use crate::series::jet::FIRST;
 use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::transition::watch::Watch;
-use crate::transition::{Crossing, Located, Locator, rate};
+use crate::transition::{Crossing, Located, Locator, guard, rate};
 use crate::walk::{SegmentEnd, Walk};
 
 /// A watch for each interface that bounds the region of a flow.
@@ -135,19 +135,19 @@ where
         watches: &mut Watches<F, N, M>,
         dense: &Dense<'_, N>,
     ) -> Result<Option<SegmentEnd>, Error> {
-        let guard = Enclosed::new(flow.boundary());
+        let enclosed = Enclosed::new(flow.boundary());
         let mut first: Option<First<N>> = None;
         let mut end = dense.tau;
         for (watch, &(interface, side)) in watches.as_ref().iter().zip(sides::<N, M, F>()) {
             let mut search = Search {
-                guard: &guard,
+                switching: &enclosed,
                 interface,
                 sign: side.sign(),
                 path: &dense.path,
                 end: dense.tau / dense.path.unit,
                 level: 0.0,
             };
-            let bracket = match by_ends::<N, M, F>(&guard, &search, dense, watch.fresh) {
+            let bracket = match by_ends::<N, M, F>(&enclosed, &search, dense, watch.fresh) {
                 Course::Free => continue,
                 Course::Falls { from, .. } => (from, search.end),
                 Course::Unknown => {
@@ -176,11 +176,19 @@ where
             };
             let statistics = &mut self.statistics;
             let located = locate_in(crossing, self.locator, dense.tau, watch.fresh, statistics);
+            // no step of the scheme may end on a guard, beyond which ψ may have another value
+            let located = located.or_else(|| {
+                guard::<Sys, N>(interface)?;
+                Some(Some(Located {
+                    elapsed: 0.0,
+                    increment: Vector::zeros(),
+                }))
+            });
             let failed = || Error::LocationFailed {
                 t: self.time.value,
                 x: self.state.x.iter().copied().collect(),
                 step_size: dense.tau,
-                interface: Sys::INTERFACES[interface],
+                interface: Sys::boundary_name(interface),
             };
             let Some(found) = located.ok_or_else(failed)? else {
                 self.statistics.grazes += 1;
@@ -239,7 +247,7 @@ fn locate_in<Sch: OneStep, Loc: Locator, F: Flow<f64, N, M>, const N: usize, con
 
 /// What the ends of a step tell of an interface whose switching function follows the state.
 fn by_ends<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    guard: &Enclosed<'_, F::Boundary, N>,
+    enclosed: &Enclosed<'_, F::Boundary, N>,
     search: &Search<'_, N>,
     dense: &Dense<'_, N>,
     fresh: bool,
@@ -254,8 +262,8 @@ fn by_ends<const N: usize, const M: usize, F: Flow<f64, N, M>>(
         end,
         ..
     } = search;
-    let c: [f64; FIRST] = guard.first(interface, path).map(|c| sign * c);
-    let (value, slope) = guard.point(interface, path, end);
+    let c: [f64; FIRST] = enclosed.first(interface, path).map(|c| sign * c);
+    let (value, slope) = enclosed.point(interface, path, end);
     let ends = Ends {
         tau: end,
         decay: dense.decay,

@@ -52,7 +52,7 @@ where
             t: walk.time.value,
             x: walk.state.x.iter().copied().collect(),
             step_size: tau,
-            interface: Sys::INTERFACES[interface],
+            interface: Sys::boundary_name(interface),
         };
         let (mut time, mut state) = match self.meet(flow, ladder, found, tau) {
             Some(meeting) => meeting,

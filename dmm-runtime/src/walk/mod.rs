@@ -68,6 +68,10 @@ where
     type Output = Result<SegmentEnd, Error>;
 
     fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Self::Output {
+        if F::KEEPS_SIGNS {
+            let flow = flow.oriented(self.time.value, &self.state.x);
+            return Sch::segment(self, &flow);
+        }
         Sch::segment(self, flow)
     }
 }
@@ -113,7 +117,7 @@ where
             t: self.time.value,
             x: self.state.x.iter().copied().collect(),
             step_size: tau,
-            interface: Sys::INTERFACES[interface],
+            interface: Sys::boundary_name(interface),
         }
     }
 

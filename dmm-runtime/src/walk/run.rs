@@ -11,7 +11,7 @@ use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::{System, Vector};
 use crate::time::Time;
-use crate::transition::{Locator, Meeting};
+use crate::transition::{Locator, Meeting, check_guards, guard, guard_error};
 use crate::walk::{SegmentEnd, Walk};
 
 /// Transitions that are seen together.
@@ -53,7 +53,7 @@ impl Accumulation {
             return Err(Error::Zeno {
                 t: time.value,
                 x: x.iter().copied().collect(),
-                interface: Sys::INTERFACES[interface],
+                interface: Sys::boundary_name(interface),
                 transitions: TOGETHER,
                 within,
             });
@@ -96,6 +96,14 @@ where
         SegmentEnd::Finished | SegmentEnd::Stopped => return Ok(ControlFlow::Break(())),
         SegmentEnd::Crossed { interface, rate } => (interface, rate),
     };
+    if let Some(guard) = guard::<Sys, N>(interface) {
+        return Err(guard_error::<Sys, N>(
+            guard,
+            walk.region,
+            walk.time.value,
+            &walk.state.x,
+        ));
+    }
     accumulation.count::<Sys, N>(interface, walk.time, &walk.state.x)?;
     let left = (walk.region, rate_from);
     let transition = enter(system, left, interface, walk.time, &walk.state)?;
@@ -127,6 +135,7 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     if rate_to * inwards <= 0.0 || rate_to.is_nan() {
         return Err(meeting.tangential());
     }
+    check_guards(system, to, time.value, &state.x)?;
     Ok(Transition {
         t: time.value,
         time,

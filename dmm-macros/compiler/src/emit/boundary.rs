@@ -2,6 +2,10 @@
 //!
 //! The functions are the same for every region; only the sides differ, and a region is a
 //! constant of the type.
+//!
+//! The guards of the regions follow the interfaces: functions that are positive where what is
+//! proved of the region holds. Of a guard u ≠ 0 it is ±u, with the sign that u has where the
+//! region is entered, which is a field.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -15,7 +19,7 @@ use super::system::Emission;
 use crate::algebra::{Dag, Id, Name};
 use crate::model::Sign;
 use crate::optimise::Optimiser;
-use crate::scheme::Scheme;
+use crate::scheme::{Guard, Scheme, SwitchingScheme};
 
 /// What the functions of an interface evaluate.
 pub(super) struct Nodes {
@@ -38,13 +42,12 @@ pub(super) fn operations(
 ) -> (Vec<Nodes>, Lowered) {
     let mut lowered = Lowered::new(parameters.clone());
     let mut target = Lowered::new(parameters);
-    let interfaces = scheme.model.interfaces.iter().zip(&scheme.interfaces);
-    let nodes = interfaces
-        .map(|(interface, derivatives)| {
-            let size = size(dag, interface.switching_function);
+    let nodes = functions(scheme)
+        .map(|(function, derivatives)| {
+            let size = size(dag, function);
             let size = lowered.lower(dag, size);
             let mut nodes = Nodes {
-                value: lowered.lower(dag, interface.switching_function),
+                value: lowered.lower(dag, function),
                 size: target.copy(&lowered, size),
                 time_derivative: lowered.lower(dag, derivatives.time_derivative),
                 gradient: derivatives
@@ -62,6 +65,42 @@ pub(super) fn operations(
     (nodes, target)
 }
 
+/// The switching functions of the interfaces, then the functions of the guards.
+fn functions(scheme: &Scheme) -> impl Iterator<Item = (Id, &SwitchingScheme)> {
+    let interfaces = scheme.model.interfaces.iter().zip(&scheme.interfaces);
+    let interfaces = interfaces.map(|(interface, derived)| (interface.switching_function, derived));
+    interfaces.chain(
+        scheme
+            .guards()
+            .map(|guard| (guard.function, &guard.derivatives)),
+    )
+}
+
+/// The number of sides of a region, with its guards.
+pub(super) fn count(scheme: &Scheme, region: usize) -> usize {
+    scheme.model.regions[region].sides.len() + guards(scheme, region).count()
+}
+
+/// The guards of a region that a trajectory can come to, with their numbers behind the
+/// interfaces.
+fn guards(scheme: &Scheme, region: usize) -> impl Iterator<Item = (usize, &Guard)> {
+    let first = scheme.model.interfaces.len();
+    let guards = scheme.guards().enumerate();
+    guards
+        .filter(move |(_, guard)| guard.region == region && !guard.is_fixed)
+        .map(move |(number, guard)| (first + number, guard))
+}
+
+/// The numbers of the guards that keep a sign, behind the interfaces.
+pub(super) fn oriented(scheme: &Scheme) -> Vec<usize> {
+    let first = scheme.model.interfaces.len();
+    let guards = scheme.guards().enumerate();
+    guards
+        .filter(|(_, guard)| guard.keeps_sign() && !guard.is_fixed)
+        .map(|(number, _)| first + number)
+        .collect()
+}
+
 /// The struct `name` of the boundaries with its `impl`s.
 pub(super) fn boundary(
     emission: &Emission<'_>,
@@ -76,7 +115,7 @@ pub(super) fn boundary(
                 .chain(nodes.gradient.iter().copied())
         })
         .collect();
-    let store = Store::new(lowered, &roots, &[]);
+    let store = Store::new(lowered, &roots, &["orientation"]);
     let functions = Functions {
         lowered,
         store: &store,
@@ -85,7 +124,13 @@ pub(super) fn boundary(
     };
     let scalar = &emission.scalar;
     let fields = store.fields(lowered, scalar);
-    let (statements, values) = store.constructor(lowered, scalar, &emission.parameters);
+    let (statements, mut values) = store.constructor(lowered, scalar, &emission.parameters);
+    let signs = oriented(emission.scheme).len();
+    let orientation = (signs > 0).then(|| {
+        let signs = paths::count(signs);
+        values.extend(quote!(orientation: [1.0; #signs],));
+        quote!(orientation: [f64; #signs],)
+    });
     let constructor = constructor_impl(
         scalar,
         &quote!(const REGION: usize, const COUNT: usize),
@@ -98,7 +143,7 @@ pub(super) fn boundary(
     quote! {
         /// The `COUNT` interfaces that bound region number `REGION`.
         #[derive(Clone, Copy, Debug)]
-        struct #name<#scalar, const REGION: usize, const COUNT: usize> { #fields }
+        struct #name<#scalar, const REGION: usize, const COUNT: usize> { #orientation #fields }
         #constructor
         #implementation
     }
@@ -115,26 +160,36 @@ fn implementation(
     let [boundary, bound, side, vector] =
         ["Boundary", "Scalar", "Side", "Vector"].map(paths::support);
     let regions = paths::count(emission.scheme.model.regions.len());
-    let sides = emission.scheme.model.regions.iter().map(|region| {
-        let sides = region.sides.iter().map(|one| {
-            let (interface, sign) = (paths::count(one.interface), sign(one.sign));
+    let regions_of = emission.scheme.model.regions.iter().enumerate();
+    let sides = regions_of.map(|(index, region)| {
+        let interfaces = region.sides.iter().map(|one| (one.interface, one.sign));
+        let guards = guards(emission.scheme, index).map(|(number, _)| (number, Sign::Positive));
+        let sides = interfaces.chain(guards).map(|(interface, side_of)| {
+            let (interface, sign) = (paths::count(interface), sign(side_of));
             quote!((#interface, #side::#sign))
         });
         quote!(&[#(#sides),*])
     });
-    let one_value = |root: fn(&Nodes) -> Id| {
-        let arms = nodes.iter().map(|nodes| {
+    let turns = Turns {
+        scalar: scalar.clone(),
+        oriented: oriented(emission.scheme),
+    };
+    let one_value = |root: fn(&Nodes) -> Id, is_signed: bool| {
+        let arms = nodes.iter().enumerate().map(|(index, nodes)| {
             let root = root(nodes);
             functions.body(Arguments::Point, &[root], |block| {
                 block.compute(&[root]);
-                block.value(root)
+                let value = block.value(root);
+                match turns.sign(index).filter(|_| is_signed) {
+                    Some(sign) => quote!(#sign * (#value)),
+                    None => value,
+                }
             })
         });
         select(arms.collect(), quote!(#scalar::from_f64(f64::NAN)))
     };
-    let interfaces = &emission.scheme.interfaces;
-    let autonomous = interfaces.iter().all(|interface| interface.autonomous);
-    let degrees = interfaces.iter().map(|interface| interface.degree);
+    let autonomous = self::functions(emission.scheme).all(|(_, derived)| derived.autonomous);
+    let degrees = self::functions(emission.scheme).map(|(_, derived)| derived.degree);
     let degree = degrees.reduce(|a, b| Some(a?.max(b?))).flatten();
     let degree = degree.map(|degree| {
         let degree = Literal::u32_unsuffixed(degree);
@@ -142,18 +197,22 @@ fn implementation(
             const DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(#degree);
         }
     });
-    let value = one_value(|nodes| nodes.value);
-    let size = one_value(|nodes| nodes.size);
-    let gradients = nodes.iter().map(|nodes| {
+    let value = one_value(|nodes| nodes.value, true);
+    let size = one_value(|nodes| nodes.size, false);
+    let gradients = nodes.iter().enumerate().map(|(index, nodes)| {
         let roots = [&[nodes.time_derivative][..], &nodes.gradient].concat();
         functions.body(Arguments::Point, &roots, |block| {
             block.compute(&roots);
             let by_time = block.value(nodes.time_derivative);
             let gradient = functions.vector(block, &nodes.gradient);
-            quote!((#by_time, #gradient))
+            match turns.sign(index) {
+                Some(sign) => quote!((#sign * #by_time, #gradient * #sign)),
+                None => quote!((#by_time, #gradient)),
+            }
         })
     });
-    let series = series(functions, nodes);
+    let series = series(functions, nodes, &turns);
+    let (orientation, orient) = turns.orient(&vector, &quote!(#states));
     let other = &emission.other;
     let fields = functions.store.converted(scalar, other);
     let unknown = quote! {(
@@ -181,8 +240,9 @@ fn implementation(
             type Over<#other: #bound> = #name<#other, REGION, COUNT>;
             #[inline]
             fn over<#other: #bound>(&self) -> Self::Over<#other> {
-                #name { #fields }
+                #name { #orientation #fields }
             }
+            #orient
             /// g(t, x)
             #[inline]
             fn switching_function(&self, #point) -> #scalar { #value }
@@ -199,8 +259,45 @@ fn implementation(
     }
 }
 
+/// The signs of the guards that keep theirs.
+struct Turns {
+    scalar: Ident,
+    /// The numbers of these guards, behind the interfaces.
+    oriented: Vec<usize>,
+}
+
+impl Turns {
+    /// The sign of function number `index`, if it is a field.
+    fn sign(&self, index: usize) -> Option<TokenStream> {
+        let place = self.oriented.iter().position(|&number| number == index)?;
+        let (scalar, place) = (&self.scalar, paths::count(place));
+        Some(quote!(#scalar::from_f64(self.orientation[#place])))
+    }
+
+    /// The field over other scalars, and the method that turns guards.
+    fn orient(&self, vector: &TokenStream, states: &TokenStream) -> (TokenStream, TokenStream) {
+        if self.oriented.is_empty() {
+            return (TokenStream::new(), TokenStream::new());
+        }
+        let scalar = &self.scalar;
+        let numbers = self.oriented.iter().map(|&number| paths::count(number));
+        let places = (0..self.oriented.len()).map(paths::count);
+        let method = quote! {
+            /// With guards that are positive at (t, x).
+            fn oriented(&self, t: #scalar, state: &#vector<#scalar, #states>) -> Self {
+                let mut oriented = *self;
+                #(if #scalar::to_f64(self.switching_function(#numbers, t, state)) < 0.0 {
+                    oriented.orientation[#places] = -self.orientation[#places];
+                })*
+                oriented
+            }
+        };
+        (quote!(orientation: self.orientation,), method)
+    }
+}
+
 /// The recurrences of the Taylor coefficients of every g.
-fn series(functions: &Functions<'_>, nodes: &[Nodes]) -> TokenStream {
+fn series(functions: &Functions<'_>, nodes: &[Nodes], turns: &Turns) -> TokenStream {
     let Functions {
         lowered,
         store,
@@ -213,8 +310,14 @@ fn series(functions: &Functions<'_>, nodes: &[Nodes]) -> TokenStream {
     let slots = paths::count(first + series.slots());
     let unrolled = series.unrolled();
     let body = series.body(None, |values, _| {
-        let places = (0..values.len()).map(paths::count);
-        quote!(#(series[#places][at] = #values;)*)
+        let values = values.iter().enumerate().map(|(index, value)| {
+            let place = paths::count(index);
+            match turns.sign(index) {
+                Some(sign) => quote!(series[#place][at] = #sign * (#value);),
+                None => quote!(series[#place][at] = #value;),
+            }
+        });
+        quote!(#(#values)*)
     });
     quote! {
         type Series<const P: usize> = [[#scalar; P]; #slots];

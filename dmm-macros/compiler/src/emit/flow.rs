@@ -7,6 +7,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::boundary;
 use super::function::Functions;
 use super::lower::Lowered;
 use super::methods::{point_functions, step_functions};
@@ -94,7 +95,8 @@ fn implementation(
             const AFFINE: bool = true;
         )
     });
-    let boundary = boundary(emission, region);
+    let boundary = own_boundary(emission, region);
+    let oriented = oriented(emission, region);
     let point = point_functions(functions, nodes, scalar);
     let step = step_functions(functions, &nodes.discrete, scalar);
     let series = series(functions, nodes);
@@ -111,6 +113,7 @@ fn implementation(
             #affine
             const SOLVABILITY: #solvability = #solvability::#kind;
             #boundary
+            #oriented
             type Over<#other: #bound> = #name<#other>;
             #[inline]
             fn over<#other: #bound>(&self) -> #name<#other> {
@@ -179,13 +182,31 @@ fn series(functions: &Functions<'_>, nodes: &Nodes) -> TokenStream {
 /// The type of a region's boundary.
 fn boundary_type(emission: &Emission<'_>, boundary: &Ident, region: usize) -> TokenStream {
     let scalar = &emission.scalar;
-    let sides = paths::count(emission.scheme.model.regions[region].sides.len());
+    let sides = paths::count(boundary::count(emission.scheme, region));
     let region = paths::count(region);
     quote!(#boundary<#scalar, #region, #sides>)
 }
 
+/// The method that turns the guards of a region, if it has such as keep a sign.
+fn oriented(emission: &Emission<'_>, region: usize) -> Option<TokenStream> {
+    let guards = &emission.scheme.regions[region].guards;
+    let keeps_sign = guards
+        .iter()
+        .any(|guard| guard.keeps_sign() && !guard.is_fixed);
+    let (scalar, states) = (&emission.scalar, paths::count(emission.states.len()));
+    let [boundary, vector] = ["Boundary", "Vector"].map(paths::support);
+    keeps_sign.then(|| {
+        quote! {
+            const KEEPS_SIGNS: bool = true;
+            fn oriented(&self, t: #scalar, state: &#vector<#scalar, #states>) -> Self {
+                Self { boundary: #boundary::oriented(&self.boundary, t, state), ..*self }
+            }
+        }
+    })
+}
+
 /// The region's boundary as a part of the flow.
-fn boundary(emission: &Emission<'_>, region: usize) -> TokenStream {
+fn own_boundary(emission: &Emission<'_>, region: usize) -> TokenStream {
     let (target, value) = match &emission.boundary {
         Some(boundary) => (
             boundary_type(emission, boundary, region),

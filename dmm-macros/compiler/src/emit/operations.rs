@@ -52,7 +52,8 @@ impl Operations {
                 }
             })
             .collect();
-        let boundary = (!scheme.interfaces.is_empty())
+        let is_bounded = !scheme.interfaces.is_empty() || scheme.guards().next().is_some();
+        let boundary = is_bounded
             .then(|| boundary::operations(&mut dag, scheme, parameters.clone(), &mut optimiser));
         Self { regions, boundary }
     }

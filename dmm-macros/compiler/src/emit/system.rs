@@ -18,7 +18,7 @@ use super::paths;
 use crate::algebra::{Math, Name, to_text};
 use crate::model::camel_case;
 use crate::model::{Parameter, Sign};
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, quantities};
 
 /// What every emitted part of a system refers to.
 pub(super) struct Emission<'a> {
@@ -70,7 +70,8 @@ impl<'a> Emission<'a> {
                 .iter()
                 .map(|name| types.take(&format!("{name}Flow")))
                 .collect(),
-            boundary: (!model.interfaces.is_empty()).then(|| types.take("Boundary")),
+            boundary: (!model.interfaces.is_empty() || scheme.guards().next().is_some())
+                .then(|| types.take("Boundary")),
         }
     }
 
@@ -334,15 +335,38 @@ fn constants(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let parameters = emission.parameters.iter().map(Name::as_str);
     let interfaces = model.interfaces.iter().map(|one| plain_text(&one.ident));
     let declaration = &model.source;
+    let guards = guards(emission);
     quote! {
         const NAME: &'static str = #name;
         const STATES: [&'static str; #count] = [#(#states),*];
         const PARAMETERS: &'static [&'static str] = &[#(#parameters),*];
         const INTERFACES: &'static [&'static str] = &[#(#interfaces),*];
+        #guards
         const REGIONS: &'static [#region] = &[#(#region::#variants),*];
         const DECLARATION: &'static str = #declaration;
         const LISTING: &'static str = #listing;
     }
+}
+
+/// What a run has to check of the conditions of proofs, if there is anything.
+fn guards(emission: &Emission<'_>) -> Option<TokenStream> {
+    let scheme = emission.scheme;
+    let guard_path = paths::support("Guard");
+    let mut guards = scheme.guards().peekable();
+    guards.peek()?;
+    let guards = guards.map(|guard| {
+        let region = paths::count(guard.region);
+        let condition = guard.condition.statement(scheme.dag());
+        let quantities = quantities(&scheme.model.regions[guard.region], guard);
+        let keeps_sign = guard.keeps_sign();
+        quote!(#guard_path {
+            region: #region,
+            condition: #condition,
+            quantities: #quantities,
+            keeps_sign: #keeps_sign,
+        })
+    });
+    Some(quote!(const GUARDS: &'static [#guard_path] = &[#(#guards),*];))
 }
 
 /// The functions of `impl System` that tell about a region.

@@ -1,14 +1,18 @@
 //! Conservation: ∂ₜψ + ∇ψ·f = 0 for one ψ of a region.
 
-use super::conditions::conditions;
+use std::collections::BTreeSet;
+
+use super::conditions::{Domain, domain};
 use super::message::{coordinates, in_region, refutation, rounded, shortened};
+use super::place::decide;
 use super::points::points;
-use super::{Quantity, Variables, rate};
+use super::signs::on_both_sides;
+use super::{Place, Quantity, Variables, rate};
 use crate::algebra::normal_form::decide_zero_on;
 use crate::algebra::{Dag, Id, Name, Verdict, evaluate_bounded, is_proved_zero, to_text};
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::proofs as codes;
-use crate::model::{Claim, Conservation, Conserved, Region};
+use crate::model::{Claim, Conservation, Conserved, Region, positive};
 
 /// `assume` wants this many points in the domain …
 const FEWEST_POINTS: usize = 64;
@@ -24,10 +28,11 @@ const SMALL: f64 = 1e-9;
 pub(super) fn examine(
     dag: &mut Dag,
     variables: &Variables,
-    region: &Region,
+    place: &Place<'_>,
     psi: &Conserved,
     diagnostics: &mut Diagnostics,
 ) -> Option<(Conservation, Quantity)> {
+    let region = place.region;
     let quantity = Quantity::new(dag, &variables.states, psi.psi);
     let name = &psi.ident;
     let is_zero = |id: &Id| is_proved_zero(dag, *id);
@@ -38,16 +43,21 @@ pub(super) fn examine(
         diagnostics.report(codes::CONSTANT_QUANTITY, psi.span, message);
         return None;
     }
+    let formulas = formulas(dag, &region.field, &quantity);
     if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, &quantity) {
-        return Some((Conservation::ByConstruction, quantity));
+        let domain = domain(&mut dag.clone(), &formulas, &place.sides, &BTreeSet::new());
+        return report_empty(place, psi, &domain, diagnostics)
+            .then_some((Conservation::ByConstruction, quantity));
     }
     let residual = rate(dag, quantity.by_time, &quantity.gradient, &region.field);
-    let formulas = formulas(dag, &region.field, &quantity);
-    match decide_zero_on(dag, residual, &formulas) {
+    let (verdict, formulas) = decide_in(dag, variables, place, residual, formulas);
+    let roots: Vec<Id> = formulas.iter().copied().chain([residual]).collect();
+    let refused = match verdict {
         Verdict::Proved => {
-            let roots: Vec<Id> = formulas.into_iter().chain([residual]).collect();
-            let conditions = conditions(dag, &roots);
-            Some((Conservation::Proved(conditions), quantity))
+            let both = on_both_sides(&mut dag.clone(), variables, place, residual, &roots);
+            let domain = domain(dag, &roots, &place.sides, &both);
+            return report_empty(place, psi, &domain, diagnostics)
+                .then_some((Conservation::Proved(domain.conditions), quantity));
         }
         Verdict::Refuted(counterexample) => {
             let message = format!(
@@ -55,23 +65,75 @@ pub(super) fn examine(
                 in_region(region),
                 refutation(dag, &counterexample)
             );
-            diagnostics.report(codes::NOT_CONSERVED, psi.span, message);
-            None
-        }
-        Verdict::Undecided if psi.claim == Claim::Assumed => {
-            let evidence = assumed(dag, variables, region, &quantity, psi, diagnostics)?;
-            Some((evidence, quantity))
+            (codes::NOT_CONSERVED, message)
         }
         Verdict::Undecided => {
+            let domain = domain(&mut dag.clone(), &roots, &place.sides, &BTreeSet::new());
+            if !report_empty(place, psi, &domain, diagnostics) {
+                return None;
+            }
+            if psi.claim == Claim::Assumed {
+                let evidence = assumed(dag, variables, region, &quantity, psi, diagnostics)?;
+                return Some((evidence, quantity));
+            }
             let message = format!(
                 "`{name}` could not be proved to be conserved{}: d/dt {name} = {} was found neither to be zero nor clearly not to be; write it in another way, or accept it with `assume conserved {name} = …;`, which checks it at many points",
                 in_region(region),
                 shortened(&to_text(dag, residual))
             );
-            diagnostics.report(codes::NOT_PROVED, psi.span, message);
-            None
+            (codes::NOT_PROVED, message)
+        }
+    };
+    let (code, message) = refused;
+    diagnostics.report(code, psi.span, message);
+    None
+}
+
+/// Whether `residual` is zero, with the formulas on whose domain: those that are given if they
+/// are enough, else with every component of f, in the region alone.
+fn decide_in(
+    dag: &mut Dag,
+    variables: &Variables,
+    place: &Place<'_>,
+    residual: Id,
+    formulas: Vec<Id>,
+) -> (Verdict, Vec<Id>) {
+    let verdict = decide_zero_on(dag, residual, &formulas);
+    let mut all = formulas.clone();
+    for &component in &place.region.field {
+        if !all.contains(&component) && dag.as_constant(component).is_none() {
+            all.push(component);
         }
     }
+    if verdict == Verdict::Proved || place.sides.is_empty() && all.len() == formulas.len() {
+        return (verdict, formulas);
+    }
+    let mut scratch = dag.clone();
+    let sides = positive(&mut scratch, &place.sides);
+    let verdict = decide(&mut scratch, variables, residual, &all, &sides);
+    if let Verdict::Refuted(_) = verdict {
+        *dag = scratch;
+    }
+    (verdict, all)
+}
+
+/// Reports a domain that is empty; whether it is not.
+fn report_empty(
+    place: &Place<'_>,
+    psi: &Conserved,
+    domain: &Domain,
+    diagnostics: &mut Diagnostics,
+) -> bool {
+    let Some(contradiction) = &domain.contradiction else {
+        return true;
+    };
+    let message = format!(
+        "`{}` and its rate have no value anywhere{}: they need {contradiction}",
+        psi.ident,
+        in_region(place.region)
+    );
+    diagnostics.report(codes::EMPTY_DOMAIN, psi.span, message);
+    false
 }
 
 /// On whose domain the proof holds: ψ, its derivatives, and the components of f that ψ depends

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! identically (Hirani, Wan & Wojtalewicz, eq. 2.3), which the normal form decides: it is
-//! *proved*, on the domain of the formulas; or *refuted*, with the residual and a point; or
+//! *proved*, on the domain of the formulas within the region; or *refuted*, with the residual
+//! and a point of the region; or
 //! *undecided*, which `assume conserved` accepts if it is small at many points. The H of a
 //! `hamiltonian` is conserved by construction. What a scheme needs beyond that is checked as
 //! well: ψ's gradients are independent, so that ΛΛᵀ has an inverse at generic points, they
@@ -16,21 +17,27 @@
 //! What was found is written into the model: [`Conserved::evidence`](crate::model::Conserved)
 //! and [`Region::independence`](crate::model::Region).
 
-mod conditions;
+pub(crate) mod conditions;
 mod conservation;
 mod independence;
 mod interfaces;
 mod message;
+mod place;
 mod points;
+mod signs;
 
 #[cfg(test)]
 mod properties;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
+
 use crate::algebra::{Dag, Id, Name, differentiate, gradient, is_proved_zero};
 use crate::diagnostics::Diagnostics;
-use crate::model::{Conservation, DomainCondition, Independence, Model};
+use crate::model::{
+    Conservation, DomainCondition, Independence, Model, Region, Sign, sides as sides_of,
+};
 
 /// Proves what `model` declares; what is false or cannot be proved is reported.
 pub fn check(model: &mut Model, diagnostics: &mut Diagnostics) {
@@ -54,13 +61,17 @@ pub fn domain(model: &mut Model, regions: &[usize], psi: Id) -> Vec<DomainCondit
     let states = model.state_names();
     let quantity = Quantity::new(&mut model.dag, &states, psi);
     let mut formulas = Vec::new();
+    let mut sides = Vec::new();
     for region in regions
         .iter()
         .filter_map(|&region| model.regions.get(region))
     {
         formulas.extend(conservation::formulas(&model.dag, &region.field, &quantity));
+        if regions.len() == 1 {
+            sides = sides_of(&model.interfaces, region);
+        }
     }
-    conditions::conditions(&mut model.dag, &formulas)
+    conditions::domain(&mut model.dag, &formulas, &sides, &BTreeSet::new()).conditions
 }
 
 /// What is known of the conserved quantities of region number `index`, and of their
@@ -75,10 +86,14 @@ fn examine(
     let Some(region) = model.regions.get(index) else {
         return (Vec::new(), Independence::Nothing);
     };
+    let place = Place {
+        region,
+        sides: sides_of(&model.interfaces, region),
+    };
     let mut evidence = Vec::new();
     let mut quantities = Vec::new();
     for psi in &region.conserved {
-        match conservation::examine(dag, variables, region, psi, diagnostics) {
+        match conservation::examine(dag, variables, &place, psi, diagnostics) {
             Some((known, quantity)) => {
                 evidence.push(known);
                 quantities.push(quantity);
@@ -121,6 +136,13 @@ impl Variables {
             all,
         }
     }
+}
+
+/// A region with its sides.
+struct Place<'a> {
+    region: &'a Region,
+    /// g of each side, with its sign in the region.
+    sides: Vec<(Id, Sign)>,
 }
 
 /// A conserved quantity with its derivatives.

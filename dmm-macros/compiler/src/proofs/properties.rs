@@ -1,11 +1,11 @@
 //! Properties of what is proved, for random formulas at random points of both signs: nothing
 //! that is proved is false where its conditions hold, and where they hold there is a value.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 
-use super::conditions::conditions;
+use super::conditions::domain;
 use crate::algebra::normal_form::decide_zero_on;
 use crate::algebra::{Dag, Function, Id, Name, Verdict, evaluate_bounded};
 use crate::model::DomainCondition;
@@ -152,7 +152,7 @@ proptest! {
     fn conditions_are_complete(formula in formula(), points in prop::array::uniform8(prop::array::uniform3(-2.0..2.0))) {
         let mut dag = Dag::new();
         let root = build(&mut dag, &formula, false);
-        let conditions = conditions(&mut dag, &[root]);
+        let conditions = domain(&mut dag, &[root], &[], &BTreeSet::new()).conditions;
         for point in points {
             let values = values(point);
             if hold(&dag, &conditions, &values) {
@@ -169,7 +169,7 @@ proptest! {
         let [whole, split] = [false, true].map(|split| build(&mut dag, &formula, split));
         let residual = dag.sub(whole, split);
         if decide_zero_on(&mut dag, residual, &[whole, split]) == Verdict::Proved {
-            let conditions = conditions(&mut dag, &[whole, split]);
+            let conditions = domain(&mut dag, &[whole, split], &[], &BTreeSet::new()).conditions;
             for point in points {
                 let values = values(point);
                 let (value, error) = evaluate_bounded(&dag, &[residual], &values)[0];

@@ -2,6 +2,7 @@
 //! first strategy that fits, and the proofs of what was derived.
 
 use super::degree::{degree, is_affine};
+use super::guards::guards;
 use super::strategy::{Context, choose, midpoint};
 use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
 use crate::algebra::{
@@ -9,7 +10,7 @@ use crate::algebra::{
 };
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::scheme as codes;
-use crate::model::{Model, Region};
+use crate::model::{Model, Region, sides};
 
 /// Derives the scheme of `model`. What cannot be derived, and an identity that fails, is
 /// reported, and then there is no scheme.
@@ -32,7 +33,7 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
 }
 
 /// The derivatives of a switching function.
-fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
+pub(super) fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
     let arguments = [states, &[Model::time()]].concat();
     SwitchingScheme {
         time_derivative: differentiate(dag, function, &Model::time()),
@@ -50,7 +51,8 @@ fn derive_region(
     diagnostics: &mut Diagnostics,
 ) -> RegionScheme {
     let dag = &mut model.dag;
-    let region = &model.regions[region];
+    let index = region;
+    let region = &model.regions[index];
     let time = Model::time();
     let psi: Vec<Id> = region.conserved.iter().map(|one| one.psi).collect();
     let autonomous = !dag
@@ -79,13 +81,21 @@ fn derive_region(
         canonical: &region.canonical,
     };
     let (strategy, refusals) = choose(dag, &context);
-    let proofs = proofs::prove(dag, &context, &psi, &strategy, &mut |identity, at| {
-        diagnostics.report(
+    let sides = sides(&model.interfaces, region);
+    let proofs =
+        proofs::prove(
+            dag,
+            &context,
+            (&psi, &sides),
+            &strategy,
+            &mut |identity, at| {
+                diagnostics.report(
             codes::IDENTITY,
             region.ident.span(),
             format!("internal error of the compiler: the derived scheme violates {identity} {at}"),
         );
-    });
+            },
+        );
     let proofs = Proofs {
         levels: levels(dag, region, interfaces),
         ..proofs
@@ -93,6 +103,8 @@ fn derive_region(
     let field = region.field.iter().copied();
     let affine = !dag.variables(field.clone()).contains(&time) && is_affine(dag, field, states);
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
+    let variables = (states, model.parameters.as_slice());
+    let guards = guards(dag, variables, (index, region), &sides, &strategy);
     RegionScheme {
         multiplier,
         time_derivative,
@@ -104,6 +116,7 @@ fn derive_region(
         autonomous,
         affine,
         proofs,
+        guards,
     }
 }
 

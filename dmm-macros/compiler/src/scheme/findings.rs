@@ -1,6 +1,6 @@
 //! What was proved of a region, in words: the lines that every form of the listing shows.
 
-use super::{Evidence, Proofs, Scheme};
+use super::{Evidence, Guard, Proofs, Scheme};
 use crate::algebra::{Dag, Id, to_text};
 use crate::model::{Conservation, Conserved, Independence, Region};
 
@@ -15,6 +15,8 @@ pub enum Grounds {
     Assumed,
     /// It could be neither proved nor refuted.
     NotProved,
+    /// It is checked while a solution is computed.
+    Checked,
 }
 
 impl Grounds {
@@ -25,6 +27,7 @@ impl Grounds {
             Self::ByConstruction => "by construction",
             Self::Assumed => "assumed",
             Self::NotProved => "not proved",
+            Self::Checked => "checked",
         }
     }
 }
@@ -41,7 +44,8 @@ pub struct Finding {
 }
 
 /// What is known of region number `region` of `scheme`: conservation of every ψ, their
-/// independence, interfaces that are constant along the flow, and the identities of f^τ.
+/// independence, interfaces that are constant along the flow, the identities of f^τ, and the
+/// conditions that a run checks.
 pub fn findings(scheme: &Scheme, region: usize) -> Vec<Finding> {
     let (Some(declared), Some(derived)) =
         (scheme.model.regions.get(region), scheme.regions.get(region))
@@ -68,7 +72,35 @@ pub fn findings(scheme: &Scheme, region: usize) -> Vec<Finding> {
         }
     }
     findings.extend(identities(declared, &derived.proofs));
+    findings.extend(
+        derived
+            .guards
+            .iter()
+            .map(|guard| checked(dag, declared, guard)),
+    );
     findings
+}
+
+/// A condition that a run checks.
+fn checked(dag: &Dag, region: &Region, guard: &Guard) -> Finding {
+    Finding {
+        grounds: Grounds::Checked,
+        statement: guard.condition.statement(dag),
+        remark: format!(
+            "needed by {}: a run ends where this fails",
+            quantities(region, guard)
+        ),
+    }
+}
+
+/// The names of the quantities that a guard is about.
+pub fn quantities(region: &Region, guard: &Guard) -> String {
+    let quantities = guard.quantities.iter();
+    let names = quantities.filter_map(|&index| region.conserved.get(index));
+    let names: Vec<String> = names
+        .map(|psi| psi.ident.to_string().trim_start_matches("r#").to_owned())
+        .collect();
+    names.join(", ")
 }
 
 fn conservation(dag: &Dag, psi: &Conserved) -> Finding {

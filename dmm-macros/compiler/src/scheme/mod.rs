@@ -14,14 +14,15 @@
 mod degree;
 mod derivation;
 mod findings;
+mod guards;
 mod proofs;
 mod solvability;
 mod strategy;
 
 use crate::algebra::{Dag, Id};
-use crate::model::Model;
+use crate::model::{DomainCondition, Model};
 pub use derivation::derive;
-pub use findings::{Finding, Grounds, findings};
+pub use findings::{Finding, Grounds, findings, quantities};
 pub use proofs::{Evidence, Proofs};
 pub use solvability::Solvability;
 pub use strategy::{Explicit, Obstacle, Pairing, Refusal, Strategy};
@@ -73,9 +74,42 @@ pub struct RegionScheme {
     pub affine: bool,
     /// What was proved of the scheme.
     pub proofs: Proofs,
+    /// The conditions of the proofs of ψ that a run has to check.
+    pub guards: Vec<Guard>,
+}
+
+/// A condition under which quantities were proved to be conserved, and beyond which code has
+/// values nevertheless.
+#[derive(Debug)]
+pub struct Guard {
+    /// The region, as an index in [`Model::regions`].
+    pub region: usize,
+    /// The condition.
+    pub condition: DomainCondition,
+    /// The quantities, as indices in the region's
+    /// [`conserved`](crate::model::Region::conserved).
+    pub quantities: Vec<usize>,
+    /// What is positive where the condition holds; of u ≠ 0 it is u, which keeps its sign.
+    pub function: Id,
+    /// Its derivatives.
+    pub derivatives: SwitchingScheme,
+    /// Whether the condition is one on parameters alone.
+    pub is_fixed: bool,
+}
+
+impl Guard {
+    /// Whether the function may have either sign, and has to keep it.
+    pub fn keeps_sign(&self) -> bool {
+        matches!(self.condition, DomainCondition::NonZero(_))
+    }
 }
 
 impl Scheme {
+    /// The guards of all regions, in the order in which they are emitted.
+    pub fn guards(&self) -> impl Iterator<Item = &Guard> {
+        self.regions.iter().flat_map(|region| &region.guards)
+    }
+
     /// The DAG of every node.
     pub fn dag(&self) -> &Dag {
         &self.model.dag

@@ -11,10 +11,9 @@ use std::collections::HashMap;
 
 use super::strategy::minimal_norm::symbols;
 use super::strategy::{Context, Strategy, cross_product, skew_pairing};
-use crate::algebra::{
-    Dag, Function, Id, Math, Name, PairFunction, Verdict, at_end, at_start, decide_zero,
-};
-use crate::model::Model;
+use crate::algebra::normal_form::decide_zero_on;
+use crate::algebra::{Dag, Function, Id, Math, Name, PairFunction, Verdict, at_end, at_start};
+use crate::model::{Model, Sign, positive};
 
 /// What is known of an identity that a scheme rests on. One that is false is a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,29 +41,49 @@ pub struct Proofs {
 /// What is done with an identity that is false: its name and where it fails.
 type Report<'a> = &'a mut dyn FnMut(&str, String);
 
-/// Proves the identities of what was derived; one that is false is reported.
+/// Proves the identities of what was derived from `psi` in a region with these `sides`; one that
+/// is false is reported.
+///
+/// f^τ(t, x, t, x) = f(t, x) is asked where every component of f and Λ has a value: one
+/// component of f^τ may be made from another one of f.
 pub(super) fn prove(
     dag: &mut Dag,
     context: &Context<'_>,
-    psi: &[Id],
+    (psi, sides): (&[Id], &[(Id, Sign)]),
     strategy: &Strategy,
     report: Report<'_>,
 ) -> Proofs {
     let telescopes = telescoping(dag, context, psi);
     let conserves = conservation(dag, context, strategy);
     let consistent = consistency(dag, context, strategy);
+    let telescopes = all_zero(dag, (&telescopes, &[]), "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ", report);
+    let conserves = all_zero(dag, (&conserves, &[]), "Λ^τ f^τ + ∂ₜ^τψ = 0", report);
+    let scratch = &mut dag.clone();
+    let mut domain: Vec<Id> = psi.iter().chain(context.field).copied().collect();
+    domain.extend(context.multiplier.iter().flatten());
+    for side in positive(scratch, sides) {
+        domain.push(scratch.call(Function::Ln, side));
+    }
+    domain.retain(|&formula| scratch.as_constant(formula).is_none());
+    let identity = "f^τ(t, x, t, x) = f(t, x)";
     Proofs {
-        telescopes: all_zero(dag, &telescopes, "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ", report),
-        conserves: all_zero(dag, &conserves, "Λ^τ f^τ + ∂ₜ^τψ = 0", report),
-        consistent: all_zero(dag, &consistent, "f^τ(t, x, t, x) = f(t, x)", report),
+        telescopes,
+        conserves,
+        consistent: all_zero(scratch, (&consistent, &domain), identity, report),
         levels: Vec::new(),
     }
 }
 
-fn all_zero(dag: &mut Dag, roots: &[Id], identity: &str, report: Report<'_>) -> Evidence {
+/// Whether `roots` are zero where they and `domain` have values.
+fn all_zero(
+    dag: &mut Dag,
+    (roots, domain): (&[Id], &[Id]),
+    identity: &str,
+    report: Report<'_>,
+) -> Evidence {
     let mut evidence = Evidence::Proved;
     for &root in roots {
-        match decide_zero(dag, root) {
+        match decide_zero_on(dag, root, domain) {
             Verdict::Proved => {}
             Verdict::Undecided => evidence = Evidence::NotProved,
             Verdict::Refuted(counterexample) => {
@@ -237,7 +256,7 @@ fn pairs<'a>(a: &'a [Id], b: &'a [Id]) -> impl Iterator<Item = (Id, Id)> + 'a {
 }
 
 /// `root` where the two ends of the step are the same point (t, x).
-fn coincide(dag: &mut Dag, root: Id, states: &[Name]) -> Id {
+pub(super) fn coincide(dag: &mut Dag, root: Id, states: &[Name]) -> Id {
     let time = Model::time();
     let mut points: HashMap<Name, Id> = HashMap::new();
     for name in states.iter().chain([&time]) {

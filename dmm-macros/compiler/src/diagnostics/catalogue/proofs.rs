@@ -37,4 +37,7 @@ super::codes! {
     ALWAYS_LEAVING = 311, "both sides of an interface lead away from it",
         "The rate of the switching function is nowhere negative above the interface and nowhere positive below it: no trajectory ever arrives.",
         "Declare two systems, or correct the signs of f or of the switching function.";
+    EMPTY_DOMAIN = 312, "a conserved quantity has no value anywhere",
+        "What its formulas and f need excludes itself, or holds nowhere in the region: ln(x) and ln(-x) are nowhere both defined, and ln(x) is not in a region where x < 0.",
+        "Correct a sign, or the region; leave the quantity out where it has no value.";
 }

@@ -14,26 +14,89 @@
 //! | tan u | cos u ≠ 0 |
 //!
 //! Conditions are taken apart into their factors; those that hold anyway, and those that follow
-//! from others, are left out (see the module `redundant`).
+//! from others, are left out (see the module `redundant`), as are those that hold in the region
+//! of the formulas. Conditions that exclude one another leave no domain (see the module
+//! `within`).
+//!
+//! Of u^v with an exponent v that is a parameter, code has a value also where u < 0 and v is an
+//! integer. Where the proof holds there as well, u ≠ 0 is asked in place of u > 0 (see
+//! [`signs`](super::signs)).
 
 mod redundant;
+mod within;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::Signed;
 
 use crate::algebra::evaluate::{Interval, enclose};
-use crate::algebra::{Dag, Function, Id, Math};
-use crate::model::DomainCondition;
+use crate::algebra::{Dag, Function, Id, Math, Name};
+use crate::model::{DomainCondition, Sign, positive};
 use redundant::{equal_condition, is_within_by, without_consequences, without_multiples};
 
-/// What has to hold for every node of `roots` to be defined.
-pub(super) fn conditions(dag: &mut Dag, roots: &[Id]) -> Vec<DomainCondition> {
+/// Where formulas are defined.
+pub(crate) struct Domain {
+    /// What has to hold.
+    pub(crate) conditions: Vec<DomainCondition>,
+    /// The statements that exclude one another, if there is no open set where they are defined.
+    pub(crate) contradiction: Option<String>,
+}
+
+/// What has to hold for every node of `roots` to be defined on `sides`; powers of a base in `both` with an exponent that is no number have values on both
+/// sides of its zeros.
+pub(crate) fn domain(
+    dag: &mut Dag,
+    roots: &[Id],
+    sides: &[(Id, Sign)],
+    both: &BTreeSet<Id>,
+) -> Domain {
+    let mut found = Conditions {
+        both: both.clone(),
+        ..Conditions::default()
+    };
+    for id in dag.reachable(roots.iter().copied()) {
+        found.node(dag, id);
+    }
+    found.finish(dag, sides)
+}
+
+/// What has to hold for the operations of `nodes` alone to have values, those of their arguments
+/// apart.
+pub(crate) fn conditions_of(
+    dag: &mut Dag,
+    nodes: &[Id],
+    sides: &[(Id, Sign)],
+) -> Vec<DomainCondition> {
+    let mut found = Conditions::default();
+    for &node in nodes {
+        found.node(dag, node);
+    }
+    found.finish(dag, sides).conditions
+}
+
+/// Whether a condition holds, but for its border, where others do.
+pub(crate) fn follows(dag: &mut Dag, condition: DomainCondition, from: &[DomainCondition]) -> bool {
+    let need = |condition: DomainCondition| match condition {
+        DomainCondition::Positive(u) | DomainCondition::NotNegative(u) => Some((u, Need::Positive)),
+        DomainCondition::NonZero(_) | DomainCondition::WithinOne(_) => None,
+    };
+    let known: Vec<(Id, Need)> = from.iter().filter_map(|&one| need(one)).collect();
+    from.contains(&condition)
+        || need(condition).is_some_and(|condition| within::is_implied_by(dag, condition, &known))
+}
+
+/// The variables that are nowhere positive where `roots` are defined.
+pub(super) fn negative_variables(dag: &mut Dag, roots: &[Id]) -> Vec<Name> {
     let mut found = Conditions::default();
     for id in dag.reachable(roots.iter().copied()) {
         found.node(dag, id);
     }
-    found.finish(dag)
+    let needs: Vec<(Id, Need)> = found.needs.into_iter().collect();
+    let ranges = within::ranges(dag, &needs);
+    let negative = ranges
+        .into_iter()
+        .filter(|(_, range)| range.is_not_positive());
+    negative.map(|(name, _)| name).collect()
 }
 
 /// What is asked of a node.
@@ -69,6 +132,8 @@ struct Conditions {
     /// By argument; both u ≥ 0 and u ≠ 0 are u > 0.
     needs: BTreeMap<Id, Need>,
     within_one: Vec<Id>,
+    /// Bases of powers that may be negative.
+    both: BTreeSet<Id>,
 }
 
 impl Conditions {
@@ -80,6 +145,7 @@ impl Conditions {
                 (Some(n), _) if n >= 0 => {}
                 (Some(_), _) => self.need(dag, u, Need::NonZero),
                 (None, Some(value)) if value.is_positive() => self.need(dag, u, Need::NotNegative),
+                (None, None) if self.both.contains(&u) => self.need(dag, u, Need::NonZero),
                 _ => self.need(dag, u, Need::Positive),
             },
             Math::Call(Function::Sqrt, u) => self.need(dag, u, Need::NotNegative),
@@ -158,8 +224,9 @@ impl Conditions {
         };
     }
 
-    /// In the order in which the arguments were written, without what follows from the rest.
-    fn finish(self, dag: &mut Dag) -> Vec<DomainCondition> {
+    /// In the order in which the arguments were written, without what follows from the rest or
+    /// from the `sides`.
+    fn finish(self, dag: &mut Dag, sides: &[(Id, Sign)]) -> Domain {
         let mut kept: Vec<(Id, Need)> = Vec::new();
         for (id, need) in self.needs {
             // u > 0 with u ≥ 0 known is u ≠ 0
@@ -179,20 +246,32 @@ impl Conditions {
                 None => kept.push((id, need)),
             }
         }
-        let within_one = self.within_one.into_iter();
-        let within: Vec<Id> = within_one
-            .filter(|&u| !is_within_by(dag, &kept, u))
+        // what is asked for once does not become part of the model
+        let scratch = &mut dag.clone();
+        let known = &positive(scratch, sides);
+        let contradiction = within::contradiction(scratch, &kept, &self.within_one, known);
+        let within = self.within_one.into_iter();
+        let within: Vec<Id> = within
+            .filter(|&u| {
+                !is_within_by(dag, &kept, u) && !within::holds_within_one(scratch, u, known)
+            })
             .collect();
         let kept = without_consequences(dag, kept);
         let kept = without_multiples(dag, kept);
+        let scratch = &mut dag.clone();
+        let known = &positive(scratch, sides);
+        let kept = within::not_implied(scratch, kept, known);
         let needs = kept.into_iter().map(|(id, need)| match need {
             Need::NotNegative => DomainCondition::NotNegative(id),
             Need::NonZero => DomainCondition::NonZero(id),
             Need::Positive => DomainCondition::Positive(id),
         });
-        needs
-            .chain(within.into_iter().map(DomainCondition::WithinOne))
-            .collect()
+        Domain {
+            conditions: needs
+                .chain(within.into_iter().map(DomainCondition::WithinOne))
+                .collect(),
+            contradiction,
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::algebra::normal_form::divide_exactly;
 use crate::algebra::{Dag, Id, Math, Name, is_proved_zero};
 
 /// Conditions that are compared with each other by the normal form, at most.
-const MOST_COMPARED: usize = 16;
+pub(super) const MOST_COMPARED: usize = 16;
 
 /// The condition among `kept` on the same argument, or on its opposite if only its zeros
 /// matter.
@@ -118,7 +118,7 @@ pub(super) fn without_multiples(dag: &mut Dag, mut kept: Vec<(Id, Need)>) -> Vec
 }
 
 /// Whether the condition is that on a multiple of one of the `others` by a unit.
-fn is_multiple(dag: &mut Dag, (id, need): (Id, Need), others: &[(Id, Need)]) -> bool {
+pub(super) fn is_multiple(dag: &mut Dag, (id, need): (Id, Need), others: &[(Id, Need)]) -> bool {
     let has_factors = matches!(
         dag[id],
         Math::Add(_) | Math::Sub(_) | Math::Mul(_) | Math::Div(_) | Math::Neg(_)

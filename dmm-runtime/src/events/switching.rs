@@ -15,7 +15,7 @@ pub(super) const ENCLOSED: usize = 5;
 
 /// The switching functions of a region along paths. What searches for their zeros is compiled for
 /// this face of them, and not once for each system.
-pub(crate) trait Guard<const N: usize> {
+pub(crate) trait Switching<const N: usize> {
     /// g and dg/ds at a point of a path.
     fn point(&self, interface: usize, path: &Path<'_, N>, s: f64) -> (f64, f64);
 
@@ -71,7 +71,7 @@ fn coefficients<S: Scalar, B: Boundary<S, N>, const N: usize>(
     series.as_ref()[interface]
 }
 
-impl<B: Boundary<f64, N>, const N: usize> Guard<N> for Enclosed<'_, B, N> {
+impl<B: Boundary<f64, N>, const N: usize> Switching<N> for Enclosed<'_, B, N> {
     fn point(&self, interface: usize, path: &Path<'_, N>, s: f64) -> (f64, f64) {
         let states = path.expanded(s);
         let time = (path.time(s), path.unit);
