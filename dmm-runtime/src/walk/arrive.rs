@@ -212,7 +212,7 @@ where
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
-                true => level.correction(flow, time, &state, &weights),
+                true => finite(level.correction(flow, time, &state, &weights)),
                 false => Vector::zeros(),
             };
             let displacement = approach.remove(&mut time, &mut state, &off);
@@ -230,7 +230,7 @@ where
                 true => {
                     let (_, multiplier) = flow.multiplier(time.value, &state.x);
                     let residual = level.residual(flow, time, &state);
-                    level.towards(&multiplier, &residual, &weights)
+                    finite(level.towards(&multiplier, &residual, &weights))
                 }
                 false => Vector::zeros(),
             };
@@ -241,5 +241,15 @@ where
             approach = Approach::at(flow, interface, time, &state);
         }
         None
+    }
+}
+
+/// A correction, or none where ψ has no gradient: at a root that is zero on the interface.
+#[inline(always)]
+fn finite<const N: usize>(correction: Vector<f64, N>) -> Vector<f64, N> {
+    if is_finite(&correction) {
+        correction
+    } else {
+        Vector::zeros()
     }
 }
