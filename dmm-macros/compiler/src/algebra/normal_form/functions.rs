@@ -177,7 +177,8 @@ impl Algebra {
     fn phase(&mut self, u: &Fraction) -> Result<Fraction> {
         let mut product = Fraction::one();
         for (c, key) in self.linear(u)? {
-            let multiple = c.as_integer().filter(|n| n.abs() <= LARGEST_MULTIPLE);
+            let is_small = |n: &i64| (-LARGEST_MULTIPLE..=LARGEST_MULTIPLE).contains(n);
+            let multiple = c.as_integer().filter(is_small);
             let factor = match (self.as_atom(&key), multiple) {
                 (Some(Kind::Pi), _) => self.root_of_unity(&c)?,
                 (Some(Kind::Call(Function::Asin, w)), Some(n)) => {

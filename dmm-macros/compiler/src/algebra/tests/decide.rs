@@ -349,3 +349,31 @@ fn normal_forms_are_readable() {
         assert_eq!(to_text(&dag, normal), expected, "{text}");
     }
 }
+
+#[test]
+fn the_largest_numbers_overflow_nothing() {
+    let largest = i64::MIN.to_string();
+    for number in [
+        largest.as_str(),
+        "9223372036854775807",
+        "2147483648",
+        "-2147483648",
+    ] {
+        for of in [
+            format!("sin({number}*asin(q)) - sin({number}*asin(q)*(1 + q))"),
+            format!("cos({number}*atan(q))"),
+            format!("exp({number}*q) - exp({number}*ln(q))"),
+            format!("q^({number})"),
+            format!("(2*q)^({number}/3) - (3*q)^({number}/7)"),
+            format!("q^(1/{number}) + q^(1/2147483647) + q^(1/2147483629) - 1"),
+            format!("1/(q^(1/{number}) + q^(1/2147483647) + q^(1/2147483629) - q)"),
+            format!("tan(pi*{number}/5) + ln({number}^2*q)"),
+        ] {
+            let mut dag = Dag::new();
+            let root = formula(&mut dag, &of);
+            let _ = decide_zero(&mut dag, root);
+            let _ = normalise(&mut dag, root);
+            let _ = divide_exactly(&mut dag, root, root);
+        }
+    }
+}
