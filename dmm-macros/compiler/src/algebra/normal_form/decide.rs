@@ -56,6 +56,7 @@ pub fn decide_zero_on(dag: &mut Dag, root: Id, domain: &[Id]) -> Verdict {
         Some(_) => Algebra::with_budget(dag, RESIDUAL_WORK),
         None => Algebra::new(dag),
     };
+    algebra.decides = true;
     algebra.assume_domain(dag, roots.iter().copied());
     let form = form_of(&mut algebra, dag, root);
     if form.as_ref().is_ok_and(Fraction::is_zero) {
@@ -104,6 +105,7 @@ pub fn is_proved_zero(dag: &Dag, root: Id) -> bool {
         return false;
     }
     let mut algebra = Algebra::new(dag);
+    algebra.decides = true;
     algebra.assume_domain(dag, [root]);
     form_of(&mut algebra, dag, root).is_ok_and(|form| form.is_zero())
 }

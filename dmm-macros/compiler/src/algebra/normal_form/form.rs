@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use egg::Language;
 
-use super::super::{BuildQuick, Dag, Id, Math};
+use super::super::{BuildQuick, Dag, Function, Id, Math};
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
 use super::fraction::Fraction;
@@ -94,10 +94,10 @@ impl<'a> Forms<'a> {
                 let inverse = self.inverse(*v)?;
                 self.algebra.mul(known(&self.known, *u)?, &inverse)
             }
-            Math::Pow([u, v]) => {
-                let (u, v) = (of(u)?, of(v)?);
+            Math::Pow([base, v]) => {
+                let (u, v) = (of(base)?, of(v)?);
                 match v.as_number() {
-                    Some(exponent) => algebra.rational_power(u, &exponent),
+                    Some(exponent) => self.power(*base, &exponent),
                     None => {
                         let logarithm = algebra.ln(u)?;
                         let product = algebra.mul(v, &logarithm)?;
@@ -105,9 +105,33 @@ impl<'a> Forms<'a> {
                     }
                 }
             }
+            Math::Call(Function::Sqrt, u) => self.power(*u, &Number::Small(1, 2)),
             Math::Call(function, u) => algebra.call(*function, of(u)?),
             Math::Pair(function, [a, b]) => algebra.pair(*function, of(a)?, of(b)?),
         }
+    }
+
+    /// The form of `base`^`exponent`. Where `base` is a power itself, an odd or a fractional one,
+    /// it is defined and not negative where *its* base is not: (uⁿ)^r = u^(nr); of an even power,
+    /// (uⁿ)^r = (u²)^(nr/2).
+    fn power(&mut self, base: Id, exponent: &Number) -> Result<Fraction, Obstacle> {
+        let whole = known(&self.known, base)?;
+        let inner = match self.dag[base] {
+            _ if !self.algebra.decides || exponent.as_integer().is_some() => None,
+            Math::Pow([u, v]) => Some((u, known(&self.known, v)?.as_number())),
+            Math::Call(Function::Sqrt, u) => Some((u, Some(Number::Small(1, 2)))),
+            _ => None,
+        };
+        let Some((u, Some(inner))) = inner else {
+            return self.algebra.rational_power(whole, exponent);
+        };
+        let u = known(&self.known, u)?;
+        if inner.as_integer().is_some_and(|n| n % 2 == 0) {
+            let square = self.algebra.mul(u, u)?;
+            let half = inner.mul(&Number::Small(1, 2));
+            return self.algebra.rational_power(&square, &half.mul(exponent));
+        }
+        self.algebra.rational_power(u, &inner.mul(exponent))
     }
 
     /// The form of 1/`id`. Products and powers are inverted factor by factor, which keeps the
@@ -121,8 +145,7 @@ impl<'a> Forms<'a> {
             }
             Math::Pow([u, v]) => {
                 if let Some(exponent) = known(&self.known, v)?.as_number() {
-                    let base = known(&self.known, u)?;
-                    return self.algebra.rational_power(base, &exponent.neg());
+                    return self.power(u, &exponent.neg());
                 }
             }
             _ => {}
