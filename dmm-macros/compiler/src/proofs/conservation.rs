@@ -58,13 +58,19 @@ pub(super) fn examine(
             diagnostics.report(codes::NOT_CONSERVED, psi.span, message);
             None
         }
-        Verdict::Undecided if psi.claim == Claim::Assumed => {
+        Verdict::Undecided | Verdict::Exhausted if psi.claim == Claim::Assumed => {
             let evidence = assumed(dag, variables, region, &quantity, psi, diagnostics)?;
             Some((evidence, quantity))
         }
-        Verdict::Undecided => {
+        verdict @ (Verdict::Undecided | Verdict::Exhausted) => {
+            let found = match verdict {
+                Verdict::Exhausted => {
+                    "was not found to be zero before the work that proofs may take ran out; write it with fewer or shorter terms"
+                }
+                _ => "was found neither to be zero nor clearly not to be; write it in another way",
+            };
             let message = format!(
-                "`{name}` could not be proved to be conserved{}: d/dt {name} = {} was found neither to be zero nor clearly not to be; write it in another way, or accept it with `assume conserved {name} = …;`, which checks it at many points",
+                "`{name}` could not be proved to be conserved{}: d/dt {name} = {} {found}, or accept it with `assume conserved {name} = …;`, which checks it at many points",
                 in_region(region),
                 shortened(&to_text(dag, residual))
             );

@@ -66,7 +66,7 @@ fn all_zero(dag: &mut Dag, roots: &[Id], identity: &str, report: Report<'_>) -> 
     for &root in roots {
         match decide_zero(dag, root) {
             Verdict::Proved => {}
-            Verdict::Undecided => evidence = Evidence::NotProved,
+            Verdict::Undecided | Verdict::Exhausted => evidence = Evidence::NotProved,
             Verdict::Refuted(counterexample) => {
                 evidence = Evidence::NotProved;
                 let point: Vec<String> = counterexample

@@ -153,7 +153,7 @@ fn answer(messages: &[String]) -> Answer {
         Answer::Refuted
     } else if !is("[PWS301]") {
         Answer::Other
-    } else if is("work") {
+    } else if is("the work that proofs may take ran out") {
         Answer::OutOfWork
     } else {
         Answer::NotDecided

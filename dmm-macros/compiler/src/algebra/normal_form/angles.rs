@@ -6,6 +6,7 @@
 //! | atan u = π n/120 | that multiple of π |
 //! | atan u with n atan u ± m atan b = π k/12 for an earlier b | by atan b |
 //! | asin u | atan(u/√(1 − u²)) |
+//! | atan u, where 2u/(1 − u²) = b and u² < 1 is evident | (atan b)/2, and the other way round |
 //! | exp(iπ n/q) | by roots for q = 2ʲ, 3, 5 and products of them |
 //!
 //! Which multiple of π it is, is seen from floating-point values; that it is one is proved.
@@ -30,44 +31,108 @@ const TURNS: i64 = 120;
 const LARGEST_POWER_OF_TWO: i64 = 64;
 
 impl Algebra {
-    /// asin or atan of a constant in its canonical form.
-    pub(super) fn constant_arc(
+    /// asin or atan of `u` by another angle, where that is known.
+    pub(super) fn arc_by_another(
         &mut self,
         function: Function,
         u: &Fraction,
     ) -> Result<Option<Fraction>> {
-        if !self.decides || !self.is_algebraic(u) {
+        if !self.decides {
             return Ok(None);
         }
-        if function == Function::Asin {
-            let square = self.mul(u, u)?;
-            let rest = self.sub(&Fraction::one(), &square)?;
-            if self
-                .approximate(&rest)
-                .and_then(super::constants::Approximate::sign)
-                != Some(1)
-            {
-                return Ok(None);
-            }
-            let inverse = self.rational_power(&rest, &Number::Small(-1, 2))?;
-            let tangent = self.mul(u, &inverse)?;
-            if !self.is_algebraic(&tangent) {
-                return Ok(None);
-            }
-            return self.arc(Function::Atan, &tangent).map(Some);
+        match function {
+            // asin u = atan(u/√(1 − u²)) for |u| < 1, and at the ends by continuity
+            Function::Asin => match self.tangent_of_asin(u) {
+                Ok(tangent) => self.arc(Function::Atan, &tangent).map(Some),
+                Err(Obstacle::Undefined) => Ok(None),
+                Err(obstacle) => Err(obstacle),
+            },
+            _ if self.is_algebraic(u) => self.constant_angle(u),
+            _ => self.by_double_angle(u),
         }
+    }
+
+    fn tangent_of_asin(&mut self, u: &Fraction) -> Result<Fraction> {
+        let square = self.mul(u, u)?;
+        let rest = self.sub(&Fraction::one(), &square)?;
+        if rest.as_number().is_some_and(|number| number.is_negative()) {
+            return Err(Obstacle::Undefined);
+        }
+        let inverse = self.rational_power(&rest, &Number::Small(-1, 2))?;
+        self.mul(u, &inverse)
+    }
+
+    /// tan 2θ for u = tan θ, if |u| < 1 is evident.
+    fn double_tangent(&mut self, u: &Fraction) -> Result<Option<Fraction>> {
+        let square = self.mul(u, u)?;
+        let rest = self.sub(&Fraction::one(), &square)?;
+        let rest = self.cancel(rest);
+        if !self.is_evident_quotient(&rest) {
+            return Ok(None);
+        }
+        let two = Coefficient::real(Number::integer(2));
+        self.div(&u.scaled(&two), &rest).map(Some)
+    }
+
+    /// atan u by an earlier atan b, where one is twice the other.
+    fn by_double_angle(&mut self, u: &Fraction) -> Result<Option<Fraction>> {
+        let own = self.double_tangent(u)?;
+        let mut atom: Atom = 0;
+        while let Some(kind) = self.kind(atom).cloned() {
+            if let Kind::Call(Function::Atan, b) = kind
+                && b != *u
+            {
+                for (sign, scale) in [(1, Number::ONE), (-1, Number::integer(-1))] {
+                    let b = if sign < 0 { b.neg() } else { b.clone() };
+                    if let Some(own) = &own
+                        && self.sub(own, &b)?.is_zero()
+                    {
+                        let half = Coefficient::real(scale.mul(&Number::Small(1, 2)));
+                        return Ok(Some(Fraction::atom(atom).scaled(&half)));
+                    }
+                    if let Some(double) = self.double_tangent(&b)?
+                        && self.sub(&double, u)?.is_zero()
+                    {
+                        let two = Coefficient::real(scale.mul(&Number::integer(2)));
+                        return Ok(Some(Fraction::atom(atom).scaled(&two)));
+                    }
+                }
+            }
+            atom += 1;
+        }
+        Ok(None)
+    }
+
+    /// atan of a constant in its canonical form.
+    fn constant_angle(&mut self, u: &Fraction) -> Result<Option<Fraction>> {
         let Some(value) = self.approximate(u) else {
             return Ok(None);
         };
         match value.sign() {
             Some(1) => {}
-            Some(_) => return Ok(Some(self.arc(function, &u.neg())?.neg())),
+            Some(_) => {
+                let angle = self.arc_of_positive(&u.neg(), -value.re)?;
+                return Ok(Some(angle.neg()));
+            }
             None => return Ok(None),
         }
+        self.arc_of_positive(u, value.re).map(Some)
+    }
+
+    fn arc_of_positive(&mut self, u: &Fraction, value: f64) -> Result<Fraction> {
+        match self.known_angle(u, value)? {
+            Some(angle) => Ok(angle),
+            None => Ok(Fraction::atom(
+                self.intern(Kind::Call(Function::Atan, u.clone()))?,
+            )),
+        }
+    }
+
+    fn known_angle(&mut self, u: &Fraction, value: f64) -> Result<Option<Fraction>> {
         if let Some(Number::Small(p, q)) = u.as_number() {
             return self.by_gaussian_primes(p, q);
         }
-        let angle = value.re.atan();
+        let angle = value.atan();
         if let Some(n) = nearest(angle, PI / TURNS as f64)
             && n < TURNS / 2
         {
@@ -79,6 +144,17 @@ impl Algebra {
             let other = self.mul(u, &cosine)?;
             if self.sub(&sine, &other)?.is_zero() {
                 return self.pi_times(n, TURNS).map(Some);
+            }
+        }
+        // half of the angle of a rational number
+        let square = self.mul(u, u)?;
+        let rest = self.sub(&Fraction::one(), &square)?;
+        if value < 0.99 {
+            let double = self.div(&u.scaled(&Coefficient::real(Number::integer(2))), &rest)?;
+            if double.as_number().is_some() {
+                let angle = self.arc(Function::Atan, &double)?;
+                let half = Coefficient::real(Number::Small(1, 2));
+                return Ok(Some(angle.scaled(&half)));
             }
         }
         self.by_earlier_angle(u, angle)
@@ -178,8 +254,9 @@ impl Algebra {
             return Ok(None);
         }
         let odd = q / power_of_two;
-        let five = if odd % 5 == 0 { 5 } else { 1 };
-        let three = if odd % 3 == 0 { 3 } else { 1 };
+        let once = |prime: i64| odd % prime == 0 && odd % (prime * prime) != 0;
+        let five = if once(5) { 5 } else { 1 };
+        let three = if once(3) { 3 } else { 1 };
         let parts = [power_of_two, three, five, odd / (three * five)];
         if parts.iter().filter(|&&part| part > 1).count() > 1 {
             // coprime parts: n/q = Σ mⱼ/qⱼ up to a whole number
@@ -189,7 +266,6 @@ impl Algebra {
                 let cofactor = q / part;
                 let Some(inverse) = (1..part).find(|m| cofactor.rem_euclid(part) * m % part == 1)
                 else {
-                    // 9 or 25: not coprime
                     return Ok(None);
                 };
                 let numerator = n.rem_euclid(part) * inverse % part;

@@ -12,6 +12,8 @@
 //! A root is guessed in floating-point numbers at most, and accepted where its power is the base
 //! exactly and its sign is certain.
 
+use num_integer::Integer;
+
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
 use super::fraction::Fraction;
@@ -26,6 +28,8 @@ type Result<T> = std::result::Result<T, Obstacle>;
 const DEEPEST_ROOT: usize = 4;
 /// Parts of a third root are looked for among the multiples of one over this.
 const DENOMINATOR: f64 = 12.0;
+/// Sums of roots of unity are inverted up to this order.
+const LARGEST_ORDER: i64 = 31;
 
 /// A complex number with a bound of the rounding errors of both parts.
 #[derive(Clone, Copy, Debug)]
@@ -140,6 +144,71 @@ impl Algebra {
         })
     }
 
+    /// Whether nothing varies in `fraction`; never said where constants are left as they are.
+    pub(super) fn is_constant(&self, fraction: &Fraction) -> bool {
+        let is_constant = |sum: &Polynomial| {
+            let mut powers = sum.terms().iter().flat_map(|term| &term.monomial);
+            powers.all(|power| match self.kind(power.atom) {
+                Some(Kind::Pi) => true,
+                Some(
+                    Kind::Exp(of)
+                    | Kind::Phase(of)
+                    | Kind::Root(of)
+                    | Kind::Call(_, of)
+                    | Kind::Opaque(of),
+                ) => self.is_constant(of),
+                Some(Kind::Variable(_)) | None => false,
+            })
+        };
+        let mut factors = fraction.denominator.iter();
+        self.decides
+            && is_constant(&fraction.numerator)
+            && factors.all(|&(index, _)| self.factor(index).is_some_and(is_constant))
+    }
+
+    /// 1/`sum` of a sum of powers of exp(iπ/q): the product of its other conjugates, over all
+    /// roots of unity of the same order, by its norm.
+    fn inverse_on_circle(&mut self, sum: &Polynomial) -> Result<Option<Fraction>> {
+        let Some(atom) = self.half_turn else {
+            return Ok(None);
+        };
+        let mut order = 1;
+        for term in sum.terms() {
+            let exponent = match term.monomial.as_slice() {
+                [] => continue,
+                [power] if power.atom == atom => power.exponent,
+                _ => return Ok(None),
+            };
+            match exponent.to_number() {
+                Number::Small(_, d) if order == 1 || d == order => order = d,
+                Number::Small(_, 1) => {}
+                _ => return Ok(None),
+            }
+        }
+        if odd_prime_of(order).is_none() || order > LARGEST_ORDER {
+            return Ok(None);
+        }
+        let mut conjugates = Fraction::one();
+        for j in (3..2 * order).step_by(2).filter(|j| j.gcd(&order) == 1) {
+            let j = Exponent::from_number(&Number::integer(j))?;
+            let mut terms = Vec::with_capacity(sum.len());
+            for term in sum.terms() {
+                terms.push(Term {
+                    monomial: monomial::power(&term.monomial, j)?,
+                    coefficient: term.coefficient.clone(),
+                });
+            }
+            let conjugate = self.on_circle(Polynomial::collect(terms))?;
+            conjugates = self.mul(&conjugates, &conjugate.into())?;
+        }
+        let norm = self.mul(&conjugates, &sum.clone().into())?;
+        let inverse = match norm.numerator.as_constant() {
+            Some(number) if norm.denominator.is_empty() => number.recip(),
+            _ => None,
+        };
+        Ok(inverse.map(|inverse| conjugates.scaled(&inverse)))
+    }
+
     /// Whether `fraction` is made of rational numbers by real roots.
     pub(super) fn is_algebraic(&self, fraction: &Fraction) -> bool {
         fraction.denominator.is_empty() && self.is_sum_of_roots(&fraction.numerator)
@@ -196,8 +265,11 @@ impl Algebra {
 
     /// 1/`sum` of a sum of roots, without a denominator; nothing where that is not found.
     pub(super) fn inverse_of_roots(&mut self, sum: &Polynomial) -> Result<Option<Fraction>> {
-        if !self.decides || sum.len() < 2 || !self.is_sum_of_roots(sum) {
+        if !self.decides || sum.len() < 2 {
             return Ok(None);
+        }
+        if !self.is_sum_of_roots(sum) {
+            return self.inverse_on_circle(sum);
         }
         let Some((atom, parts)) = self.by_latest_root(sum) else {
             return Ok(None);
@@ -432,6 +504,30 @@ impl Algebra {
             atom += 1;
         }
         Ok(None)
+    }
+
+    /// A sum with exp(iπ n/3) and exp(iπ n/5) in it replaced by roots; nothing if there are none.
+    pub(super) fn simple_turns(&mut self, sum: &Polynomial) -> Result<Option<Fraction>> {
+        let Some(atom) = self.half_turn.filter(|_| self.decides) else {
+            return Ok(None);
+        };
+        let turn = |term: &Term| monomial::exponent_of(&term.monomial, atom).to_number();
+        let is_simple = |term: &Term| matches!(turn(term), Number::Small(_, 3 | 5));
+        if !sum.terms().iter().any(is_simple) {
+            return Ok(None);
+        }
+        let mut total = Fraction::zero();
+        for term in sum.terms() {
+            let mut part = term.clone();
+            let mut factor = Fraction::one();
+            if is_simple(term) {
+                factor = self.root_of_unity(&turn(term))?;
+                part.monomial.retain(|power| power.atom != atom);
+            }
+            let part = self.mul(&Polynomial::from(part).into(), &factor)?;
+            total = self.add(&total, &part)?;
+        }
+        Ok(Some(total))
     }
 
     /// A sum with the powers of exp(iπ) in it as powers below 1, of a denominator that is a

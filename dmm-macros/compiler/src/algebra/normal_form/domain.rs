@@ -139,6 +139,18 @@ impl Algebra {
         }))
     }
 
+    /// Whether `u` is positive or zero term by term, above and below.
+    pub(super) fn is_evident_quotient(&self, u: &Fraction) -> bool {
+        let mut factors = u.denominator.iter();
+        self.is_evidently_positive(&u.numerator)
+            && factors.all(|&(index, multiplicity)| {
+                multiplicity % 2 == 0
+                    || self
+                        .factor(index)
+                        .is_some_and(|factor| self.is_evidently_positive(factor))
+            })
+    }
+
     fn evident_polynomial_root(
         &self,
         polynomial: &Polynomial,

@@ -294,6 +294,12 @@ impl Algebra {
             return Ok(Fraction::zero());
         }
         let u = self.cancel(u.clone());
+        // the sign of a constant is not that of its first term
+        if self.is_algebraic(&u)
+            && let Some(angle) = self.arc_by_another(function, &u)?
+        {
+            return Ok(angle);
+        }
         if u.leads_negative() {
             return Ok(self.arc(function, &u.neg())?.neg());
         }
@@ -303,7 +309,7 @@ impl Algebra {
             (Function::Atan, Some(Number::Small(1, 1))) => return self.pi_times(1, 4),
             _ => {}
         }
-        if let Some(angle) = self.constant_arc(function, &u)? {
+        if let Some(angle) = self.arc_by_another(function, &u)? {
             return Ok(angle);
         }
         let atom = self.intern(Kind::Call(function, u))?;

@@ -220,6 +220,10 @@ impl Algebra {
             [] if primitive.is_one() && u.denominator.is_empty() => {
                 return Err(Obstacle::Undefined);
             }
+            // −1/d = 1/(−d), so that both have the same root
+            [] if primitive.is_one() && self.decides => {
+                Rest::Inverse(self.expand(&u.denominator)?.neg())
+            }
             _ => {
                 let unit = Term {
                     monomial: signed,
