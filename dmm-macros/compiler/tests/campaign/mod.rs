@@ -248,3 +248,55 @@ fn is_violated(model: &Model, condition: DomainCondition, point: &truth::Point) 
         DomainCondition::WithinOne(u) => value(u).abs() > 1.0 + 1e-9,
     }
 }
+
+/// The identities between constants that do not hold, or that the compiler cannot prove.
+#[allow(dead_code, reason = "the example leaves this to the test")]
+pub(crate) fn constants_agree() -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (left, right) in disguise::CONSTANTS {
+        let declaration = format!(
+            "system S {{ state x, y; der(x) = y*(({left}) - ({right})); der(y) = 1; conserved a = x; }}"
+        );
+        let case = judge(0, declaration, &mut Random::of_case(1, 0));
+        if (case.truth, case.answer) != (Truth::Holds, Answer::Proved) && !DIFFICULT.contains(left)
+        {
+            wrong.push(format!(
+                "{left} = {right}: {:?}, {:?}",
+                case.truth, case.answer
+            ));
+        }
+    }
+    wrong
+}
+
+/// Constants whose relations are not seen.
+const DIFFICULT: [&str; 0] = [];
+
+/// The identities between formulas that do not hold where both sides have values.
+#[allow(dead_code, reason = "the example leaves this to the test")]
+pub(crate) fn identities_agree() -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (left, right) in disguise::IDENTITIES {
+        let formula = format!("({left}) - ({right})");
+        let declared: Vec<&str> = ["u", "v", "w", "k"]
+            .into_iter()
+            .filter(|name| term::Term::read(&formula).mentions(name))
+            .collect();
+        let rates: String = declared
+            .iter()
+            .map(|name| format!(" der({name}) = 1 + {name}^2/7;"))
+            .collect();
+        let declaration = format!(
+            "system S {{ state {}, last; {rates} der(last) = {formula}; conserved a = last; }}",
+            declared.join(", ")
+        );
+        let case = judge(0, declaration, &mut Random::of_case(1, 0));
+        if case.truth != Truth::Holds || case.answer == Answer::Refuted {
+            wrong.push(format!(
+                "{left} = {right}: {:?}, {:?}",
+                case.truth, case.answer
+            ));
+        }
+    }
+    wrong
+}

@@ -28,6 +28,8 @@ type Result<T> = std::result::Result<T, Obstacle>;
 const DEEPEST_ROOT: usize = 4;
 /// Parts of a third root are looked for among the multiples of one over this.
 const DENOMINATOR: f64 = 12.0;
+/// Third roots are looked for among those of multiples up to this one.
+const LARGEST_SCALE: i64 = 7;
 /// Sums of roots of unity are inverted up to this order.
 const LARGEST_ORDER: i64 = 31;
 
@@ -345,7 +347,7 @@ impl Algebra {
             return Ok(Some((root, 2)));
         }
         if denominator % 3 == 0
-            && let Some(root) = self.third_root(base)?
+            && let Some(root) = self.scaled_third_root(base)?
         {
             return Ok(Some((root, 3)));
         }
@@ -404,6 +406,20 @@ impl Algebra {
         }
         let own = self.integer_power(root, n)?;
         Ok(self.sub(&own, power)?.is_zero())
+    }
+
+    /// ∛x by ∛(nx)/∛n for a small integer n.
+    fn scaled_third_root(&mut self, x: &Fraction) -> Result<Option<Fraction>> {
+        for n in 1..=LARGEST_SCALE {
+            let n = Number::integer(n);
+            let scaled = x.scaled(&Coefficient::real(n.clone()));
+            if let Some(root) = self.third_root(&scaled)? {
+                let n = Fraction::number(n);
+                let scale = self.rational_power(&n, &Number::Small(-1, 3))?;
+                return self.mul(&root, &scale).map(Some);
+            }
+        }
+        Ok(None)
     }
 
     /// ∛x of x = A + B√c with rational A, B, c, if it is p + q√c.

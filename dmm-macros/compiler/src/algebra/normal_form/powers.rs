@@ -220,9 +220,20 @@ impl Algebra {
             [] if primitive.is_one() && u.denominator.is_empty() => {
                 return Err(Obstacle::Undefined);
             }
-            // −1/d = 1/(−d), so that both have the same root
-            [] if primitive.is_one() && self.decides => {
-                Rest::Inverse(self.expand(&u.denominator)?.neg())
+            // ±1/(m d) = 1/(±m d), so that both have the same root
+            powers
+                if primitive.is_one()
+                    && self.decides
+                    && !u.denominator.is_empty()
+                    && powers.iter().all(|power| power.exponent.is_negative()) =>
+            {
+                let unit = Term {
+                    monomial: signed,
+                    coefficient: Coefficient::real(sign),
+                };
+                let below = self.expand(&u.denominator)?;
+                let unit = Fraction::from(Polynomial::from(unit.inverse()?));
+                Rest::Inverse(self.mul(&below, &unit)?)
             }
             _ => {
                 let unit = Term {
