@@ -172,14 +172,9 @@ pub(super) fn work(dag: &Dag, left: Value, right: Value) -> usize {
 pub(super) fn level(dag: &Dag, id: Id, levels: &[usize]) -> usize {
     let of = |child: &Id| {
         let level = levels.get(usize::from(*child)).copied().unwrap_or(0);
-        let goes_on = match (&dag[id], &dag[*child]) {
-            (
-                Math::Add(_) | Math::Sub(_) | Math::Neg(_),
-                Math::Add(_) | Math::Sub(_) | Math::Neg(_),
-            )
-            | (Math::Mul(_) | Math::Div(_), Math::Mul(_) | Math::Div(_)) => true,
-            _ => false,
-        };
+        let is_sum = |id: Id| matches!(dag[id], Math::Add(_) | Math::Sub(_) | Math::Neg(_));
+        let is_product = |id: Id| matches!(dag[id], Math::Mul(_) | Math::Div(_));
+        let goes_on = is_sum(id) && is_sum(*child) || is_product(id) && is_product(*child);
         if goes_on { level } else { level + 1 }
     };
     let children = egg::Language::children(&dag[id]);

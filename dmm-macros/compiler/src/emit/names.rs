@@ -35,16 +35,16 @@ impl Names {
         if self.is_free(&stem) && is_identifier(&stem) {
             return self.taken(stem);
         }
-        self.from_number(&stem, 2)
+        self.numbered_from(&stem, 2)
     }
 
     /// The identifiers `stem1`, `stem2`, …: the first that is free.
     pub(super) fn number(&mut self, stem: &str) -> Ident {
-        self.from_number(stem, 1)
+        self.numbered_from(stem, 1)
     }
 
     /// `stem` with the first number from `first` upwards that is free.
-    fn from_number(&mut self, stem: &str, first: usize) -> Ident {
+    fn numbered_from(&mut self, stem: &str, first: usize) -> Ident {
         let mut number = self.next.get(stem).copied().unwrap_or(first).max(first);
         let mut candidate = format!("{stem}{number}");
         while !self.is_free(&candidate) {
