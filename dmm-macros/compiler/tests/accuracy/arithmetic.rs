@@ -106,6 +106,11 @@ pub(crate) fn exact(dag: &Dag, roots: &[Id], point: &BTreeMap<Name, f64>) -> Opt
     Some(roots.iter().map(|root| values[root].clone()).collect())
 }
 
+/// `value` with the precision of all others: an exact zero has none, and no root.
+pub(crate) fn kept(value: Big) -> Big {
+    value.with_precision(BITS).value()
+}
+
 pub(crate) fn one() -> Big {
     Big::ONE.with_precision(BITS).value()
 }

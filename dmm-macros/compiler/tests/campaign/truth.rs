@@ -7,7 +7,7 @@ use dmm_compiler::algebra::{Dag, Function, Id, Math, Name};
 use dmm_compiler::model::{Model, Region, Sign};
 
 use super::arithmetic::{
-    Big, big, doubles, exact_call, integer_power, one, pi, quotient, rational,
+    Big, big, doubles, exact_call, integer_power, kept, one, pi, quotient, rational,
 };
 use super::random::Random;
 
@@ -174,7 +174,7 @@ impl Duals {
                 }
                 Math::Pair(..) => return None,
             };
-            known.insert(id, value);
+            known.insert(id, (kept(value.0), kept(value.1)));
         }
         Some(Self { known })
     }
