@@ -5,7 +5,7 @@ use dmm_runtime::pws;
 pws! {
     system Undecided {
         state x, y;
-        der(x) = y * (sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2));
+        der(x) = y * ((9*2^(1/3) - 9)^(1/3) - 1 + 2^(1/3) - 4^(1/3));
         der(y) = 1;
         conserved a = x;
     }
@@ -23,7 +23,7 @@ pws! {
 pws! {
     system Rounding {
         state x, y;
-        der(x) = sqrt(3 + 2*sqrt(2)) - 1 - sqrt(2);
+        der(x) = (9*2^(1/3) - 9)^(1/3) - 1 + 2^(1/3) - 4^(1/3);
         der(y) = 1;
         assume conserved a = x;
     }

@@ -4,6 +4,8 @@
 //! without variables its floating-point value is carried, so that ln(−1), 1/0 or exp(1000) is
 //! found where it stands, and not by a trajectory that ends in NaN.
 
+use std::collections::BTreeSet;
+
 use super::number::{self, Problem};
 use super::{Resolver, Scope, Value};
 use crate::algebra::{Id, Math, Rational, is_proved_zero};
@@ -17,37 +19,59 @@ const LARGEST_DIVISOR: usize = 1_000;
 /// The work of the proof that a divisor is zero, in nodes.
 const PROOF: usize = 200;
 
+/// What is wrong with a node of a formula.
+enum NodeProblem {
+    /// Whatever it is a part of.
+    Wrong(Problem),
+    /// It is nested too deeply to be derived from.
+    TooNested,
+}
+
 impl<'d> Resolver<'d> {
     /// The node of `formula`. All that is wrong is reported; nothing is returned if something
     /// was.
     pub(super) fn formula(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
         let value = self.expression(formula, scope)?;
-        if let Some((code, message)) = self.node_problem(value.id) {
-            self.report(code, formula.extent, message);
-            return None;
+        match self.node_problem(value.id) {
+            None => Some(value),
+            Some(NodeProblem::Wrong((code, message))) => {
+                self.report(code, formula.extent, message);
+                None
+            }
+            Some(NodeProblem::TooNested) => {
+                let levels = number::MOST_LEVELS;
+                let reason = format!(
+                    "with what its names stand for, a formula is nested more than {levels} deep"
+                );
+                self.too_long(formula, &reason);
+                None
+            }
         }
-        Some(value)
     }
 
     /// What is wrong with a node below `root`; those that were examined before are in order.
-    fn node_problem(&mut self, root: Id) -> Option<Problem> {
+    fn node_problem(&mut self, root: Id) -> Option<NodeProblem> {
+        self.levels.resize(self.dag.len(), 0);
+        let is_new = |levels: &[usize], id: Id| levels.get(usize::from(id)) == Some(&0);
         let mut stack = vec![root];
+        let mut reached = BTreeSet::new();
         while let Some(id) = stack.pop() {
-            let place = usize::from(id);
-            if place >= self.sound.len() {
-                self.sound.resize(self.dag.len(), false);
+            if is_new(&self.levels, id) && reached.insert(id) {
+                stack.extend_from_slice(egg::Language::children(&self.dag[id]));
             }
-            if self.sound.get(place) != Some(&false) {
-                continue;
+        }
+        // operands come before what is made of them
+        for id in reached {
+            let level = number::level(&self.dag, id, &self.levels);
+            if let Some(problem) = number::node_problem(&self.dag, id) {
+                return Some(NodeProblem::Wrong(problem));
             }
-            let problem = number::node_problem(&self.dag, id);
-            if problem.is_some() {
-                return problem;
+            if level > number::MOST_LEVELS {
+                return Some(NodeProblem::TooNested);
             }
-            if let Some(sound) = self.sound.get_mut(place) {
-                *sound = true;
+            if let Some(known) = self.levels.get_mut(usize::from(id)) {
+                *known = level;
             }
-            stack.extend_from_slice(egg::Language::children(&self.dag[id]));
         }
         None
     }

@@ -104,8 +104,8 @@ struct Resolver<'d> {
     samples: Samples,
     /// By divisor that is not clear from the samples: whether it is zero.
     divisors: BTreeMap<Id, bool>,
-    /// By node: whether it and all below it was found to be in order.
-    sound: Vec<bool>,
+    /// By node: how deep it is nested, if it and all below it was found to be in order; else 0.
+    levels: Vec<usize>,
     /// How deep the part of a formula that is read is nested.
     depth: usize,
     /// How much was read.
@@ -153,7 +153,7 @@ impl<'d> Resolver<'d> {
             unknowns: BTreeSet::new(),
             samples: Samples::default(),
             divisors: BTreeMap::new(),
-            sound: Vec::new(),
+            levels: Vec::new(),
             depth: 0,
             work: 0,
             is_rehearsal: false,

@@ -13,6 +13,9 @@ const LARGEST_EXPONENT: i64 = 100;
 /// The most bits of numerator and denominator together that an exact constant may have: more
 /// than any sum of two doubles needs.
 const MOST_BITS: u64 = 6_000;
+/// Functions, powers, and sums within products are nested up to this level: what reads formulas
+/// by recursion has the stack of a macro.
+pub(super) const MOST_LEVELS: usize = 160;
 
 /// A kind of mistake, and what is wrong.
 pub(super) type Problem = (Code, String);
@@ -162,6 +165,20 @@ pub(super) fn work(dag: &Dag, left: Value, right: Value) -> usize {
     }
     let square = left.max(right).saturating_pow(2);
     usize::try_from(square / 1_500).unwrap_or(usize::MAX)
+}
+
+/// How deep a node is nested, by the `levels` of its operands: a sum within a sum, and a product
+/// within a product, are of the same level.
+pub(super) fn level(dag: &Dag, id: Id, levels: &[usize]) -> usize {
+    let of = |child: &Id| {
+        let level = levels.get(usize::from(*child)).copied().unwrap_or(0);
+        let is_sum = |id: Id| matches!(dag[id], Math::Add(_) | Math::Sub(_) | Math::Neg(_));
+        let is_product = |id: Id| matches!(dag[id], Math::Mul(_) | Math::Div(_));
+        let goes_on = is_sum(id) && is_sum(*child) || is_product(id) && is_product(*child);
+        if goes_on { level } else { level + 1 }
+    };
+    let children = egg::Language::children(&dag[id]);
+    children.iter().map(of).max().unwrap_or(1)
 }
 
 /// What is wrong with a node of a formula whatever it is a part of: an exact constant that has

@@ -223,7 +223,7 @@ impl Lowered {
             .is_integer()
             .then(|| doubled.to_integer().to_i64())
             .flatten()
-            .filter(|halves| halves.abs() <= 2 * LONGEST_CHAIN);
+            .filter(|halves| halves.unsigned_abs() <= 2 * LONGEST_CHAIN.unsigned_abs());
         let Some(halves) = halves else {
             return self.insert(Math::Pow([a, b]));
         };

@@ -1,7 +1,7 @@
 //! Identifiers of emitted code: every one is taken once a scope, is not a keyword, and is as
 //! close to what it was asked to be as that allows.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -10,6 +10,9 @@ use quote::format_ident;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
+    /// By stem or wish, the smallest number that may still be free: names are never given
+    /// back, so that those below stay taken.
+    next: BTreeMap<String, usize>,
 }
 
 impl Names {
@@ -17,35 +20,49 @@ impl Names {
     pub(super) fn reserving<'a>(reserved: impl IntoIterator<Item = &'a str>) -> Self {
         Self {
             taken: reserved.into_iter().map(str::to_owned).collect(),
+            next: BTreeMap::new(),
         }
     }
 
     /// An identifier like `wish`.
     pub(super) fn take(&mut self, wish: &str) -> Ident {
         let wish = wish.trim_start_matches("r#");
-        let mut candidate = wish.to_owned();
-        let mut number = 1;
-        while self.taken.contains(&candidate) || !is_identifier(&candidate) {
-            // `match_`, then `match_2`, …
-            candidate = if number == 1 {
-                format!("{wish}_")
-            } else {
-                format!("{wish}_{number}")
-            };
-            number += 1;
+        if self.is_free(wish) && is_identifier(wish) {
+            return self.taken(wish.to_owned());
         }
-        let ident = format_ident!("{candidate}");
-        self.taken.insert(candidate);
-        ident
+        // `match_`, then `match_2`, …
+        let stem = format!("{wish}_");
+        if self.is_free(&stem) && is_identifier(&stem) {
+            return self.taken(stem);
+        }
+        self.numbered_from(&stem, 2)
     }
 
     /// The identifiers `stem1`, `stem2`, …: the first that is free.
     pub(super) fn number(&mut self, stem: &str) -> Ident {
-        let mut number = 1;
-        while self.taken.contains(&format!("{stem}{number}")) {
+        self.numbered_from(stem, 1)
+    }
+
+    /// `stem` with the first number from `first` upwards that is free.
+    fn numbered_from(&mut self, stem: &str, first: usize) -> Ident {
+        let mut number = self.next.get(stem).copied().unwrap_or(first).max(first);
+        let mut candidate = format!("{stem}{number}");
+        while !self.is_free(&candidate) {
             number += 1;
+            candidate = format!("{stem}{number}");
         }
-        self.take(&format!("{stem}{number}"))
+        self.next.insert(stem.to_owned(), number + 1);
+        self.taken(candidate)
+    }
+
+    fn is_free(&self, candidate: &str) -> bool {
+        !self.taken.contains(candidate)
+    }
+
+    fn taken(&mut self, name: String) -> Ident {
+        let ident = format_ident!("{name}");
+        self.taken.insert(name);
+        ident
     }
 }
 

@@ -141,7 +141,7 @@ impl<'m> Ansatz<'m> {
             states: states.len(),
             fields: fields.len(),
             parameters,
-            granularity: granularity(&terms),
+            granularity: granularity(&terms)?,
             terms,
             sets: [some(), some()],
         })

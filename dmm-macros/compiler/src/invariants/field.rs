@@ -212,9 +212,9 @@ impl<'t> Point<'t> {
     }
 }
 
-/// The common denominator of the exponents of each atom.
-pub(super) fn granularity(terms: &Terms) -> Vec<i64> {
-    let mut degrees = vec![1; terms.atoms.len()];
+/// The common denominator of the exponents of each atom; `None` if one is too large.
+pub(super) fn granularity(terms: &Terms) -> Option<Vec<i64>> {
+    let mut degrees = vec![1_i64; terms.atoms.len()];
     let bases = terms.atoms.iter().filter_map(|atom| match atom {
         Atom::Root(base) => Some(base),
         _ => None,
@@ -224,12 +224,13 @@ pub(super) fn granularity(terms: &Terms) -> Vec<i64> {
         for sum in factors.chain([&ratio.numerator]) {
             for &(atom, (_, denominator)) in sum.iter().flat_map(|term| &term.powers) {
                 if let Some(degree) = degrees.get_mut(atom) {
-                    *degree = num_integer::lcm(*degree, denominator);
+                    let common = num_integer::gcd(*degree, denominator);
+                    *degree = (*degree / common).checked_mul(denominator)?;
                 }
             }
         }
     }
-    degrees
+    Some(degrees)
 }
 
 /// Whether a term has an atom to this power.

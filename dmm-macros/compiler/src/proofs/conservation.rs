@@ -67,7 +67,7 @@ pub(super) fn examine(
             );
             (codes::NOT_CONSERVED, message)
         }
-        Verdict::Undecided => {
+        verdict @ (Verdict::Undecided | Verdict::Exhausted) => {
             let domain = domain(&mut dag.clone(), &roots, &place.sides, &BTreeSet::new());
             if !report_empty(place, psi, &domain, diagnostics) {
                 return None;
@@ -76,8 +76,14 @@ pub(super) fn examine(
                 let evidence = assumed(dag, variables, region, &quantity, psi, diagnostics)?;
                 return Some((evidence, quantity));
             }
+            let found = match verdict {
+                Verdict::Exhausted => {
+                    "was not found to be zero before the work that proofs may take ran out; write it with fewer or shorter terms"
+                }
+                _ => "was found neither to be zero nor clearly not to be; write it in another way",
+            };
             let message = format!(
-                "`{name}` could not be proved to be conserved{}: d/dt {name} = {} was found neither to be zero nor clearly not to be; write it in another way, or accept it with `assume conserved {name} = …;`, which checks it at many points",
+                "`{name}` could not be proved to be conserved{}: d/dt {name} = {} {found}, or accept it with `assume conserved {name} = …;`, which checks it at many points",
                 in_region(region),
                 shortened(&to_text(dag, residual))
             );

@@ -44,10 +44,12 @@ pub(super) fn decide(
     match decide_zero_on(dag, turned_root, &turned) {
         Verdict::Proved => Verdict::Proved,
         Verdict::Refuted(found) => Verdict::Refuted(turned_back(dag, found, &opposites)),
-        Verdict::Undecided => match refute(dag, variables, root, &domain, sides) {
-            Some(found) => Verdict::Refuted(found),
-            None => Verdict::Undecided,
-        },
+        open @ (Verdict::Undecided | Verdict::Exhausted) => {
+            match refute(dag, variables, root, &domain, sides) {
+                Some(found) => Verdict::Refuted(found),
+                None => open,
+            }
+        }
     }
 }
 

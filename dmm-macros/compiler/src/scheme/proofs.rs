@@ -85,7 +85,7 @@ fn all_zero(
     for &root in roots {
         match decide_zero_on(dag, root, domain) {
             Verdict::Proved => {}
-            Verdict::Undecided => evidence = Evidence::NotProved,
+            Verdict::Undecided | Verdict::Exhausted => evidence = Evidence::NotProved,
             Verdict::Refuted(counterexample) => {
                 evidence = Evidence::NotProved;
                 let point: Vec<String> = counterexample

@@ -60,8 +60,8 @@ use proc_macro2::{Span, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 use syn::{Attribute, Visibility, braced, token};
 
-use crate::diagnostics::catalogue::syntax::{ATTRIBUTE, DEPTH, HEAD, ONE_SYSTEM, SYNTAX};
-use crate::diagnostics::{Diagnostics, Extent};
+use crate::diagnostics::catalogue::syntax::{ATTRIBUTE, DEPTH, HEAD, NUMBER, ONE_SYSTEM, SYNTAX};
+use crate::diagnostics::{Code, Diagnostics, Extent};
 pub use declaration::{
     Condition, ConservedItem, Declaration, Defaults, Definition, Derivative, ForItem, FunctionItem,
     Group, HamiltonianItem, Item, ParameterItem, Range, RegionItem, Relation, Target,
@@ -76,8 +76,8 @@ const DEEPEST_BRACKETS: usize = 128;
 /// Parses one `system`. The declaration is there, possibly with items missing, whenever its
 /// head could be read; it is complete if nothing was added to `diagnostics`.
 pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declaration> {
-    if let Some(place) = too_deep(&input) {
-        diagnostics.report(DEPTH, place, "brackets are nested too deeply");
+    if let Err((code, place, message)) = bounded(&input) {
+        diagnostics.report(code, place, message);
         return None;
     }
     let before = diagnostics.len();
@@ -104,20 +104,29 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Option<Declar
     }
 }
 
-/// The first bracket that is nested too deeply. The search does not recurse.
-fn too_deep(input: &TokenStream) -> Option<Span> {
+/// Refuses the first bracket that is nested too deeply, and the first number that is too long:
+/// the parser reads brackets by recursion, and a number in a time that grows with the square of
+/// its length. The search
+/// does not recurse.
+fn bounded(input: &TokenStream) -> Result<(), (Code, Span, String)> {
     let mut open = vec![input.clone().into_iter()];
     while let Some(innermost) = open.last_mut() {
         match innermost.next() {
             Some(TokenTree::Group(group)) if open.len() > DEEPEST_BRACKETS => {
-                return Some(group.span_open());
+                let message = "brackets are nested too deeply".to_owned();
+                return Err((DEPTH, group.span_open(), message));
             }
             Some(TokenTree::Group(group)) => open.push(group.stream().into_iter()),
+            Some(TokenTree::Literal(literal)) => {
+                if let Some(message) = number::too_long(&literal.to_string()) {
+                    return Err((NUMBER, literal.span(), message));
+                }
+            }
             Some(_) => {}
             None => drop(open.pop()),
         }
     }
-    None
+    Ok(())
 }
 
 /// `system Name { … }`

@@ -10,6 +10,19 @@ use crate::diagnostics::catalogue::syntax::{NUMBER, OPERAND, OPERATOR};
 
 /// Decimal exponents beyond this have no double anyway, and their powers of ten are long.
 const LARGEST_EXPONENT: i64 = 400;
+/// A number has no more digits than this: every double has an exact decimal of fewer.
+const MOST_DIGITS: usize = 1_200;
+
+/// What is wrong with a literal that is a number of too many digits.
+pub(super) fn too_long(literal: &str) -> Option<String> {
+    if literal.len() <= MOST_DIGITS || !literal.starts_with(|first: char| first.is_ascii_digit()) {
+        return None;
+    }
+    let digits = literal.bytes().filter(u8::is_ascii_digit).count();
+    (digits > MOST_DIGITS).then(|| {
+        format!("this number has {digits} digits: numbers of up to {MOST_DIGITS} are supported")
+    })
+}
 
 /// The exact value of a literal, or what is wrong with it.
 pub(super) fn exact(literal: &Lit) -> Result<Rational, (Code, String)> {

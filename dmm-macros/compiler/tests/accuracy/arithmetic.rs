@@ -106,11 +106,16 @@ pub(crate) fn exact(dag: &Dag, roots: &[Id], point: &BTreeMap<Name, f64>) -> Opt
     Some(roots.iter().map(|root| values[root].clone()).collect())
 }
 
-fn one() -> Big {
+/// `value` with the precision of all others: an exact zero has none, and no root.
+pub(crate) fn kept(value: Big) -> Big {
+    value.with_precision(BITS).value()
+}
+
+pub(crate) fn one() -> Big {
     Big::ONE.with_precision(BITS).value()
 }
 
-fn pi() -> Big {
+pub(crate) fn pi() -> Big {
     one().atan() * Big::from(4)
 }
 
@@ -128,17 +133,17 @@ fn integer(value: &BigInt) -> Big {
     }
 }
 
-fn rational(value: &Rational) -> Big {
+pub(crate) fn rational(value: &Rational) -> Big {
     let [numerator, denominator] =
         [value.numer(), value.denom()].map(|part| integer(part).with_precision(BITS).value());
     numerator / denominator
 }
 
-fn quotient(a: &Big, b: &Big) -> Option<Big> {
+pub(crate) fn quotient(a: &Big, b: &Big) -> Option<Big> {
     (*b != Big::ZERO).then(|| a / b)
 }
 
-fn integer_power(a: &Big, n: i64) -> Option<Big> {
+pub(crate) fn integer_power(a: &Big, n: i64) -> Option<Big> {
     let power = (0..n.unsigned_abs()).fold(one(), |power, _| power * a);
     if n < 0 {
         quotient(&one(), &power)
@@ -147,7 +152,7 @@ fn integer_power(a: &Big, n: i64) -> Option<Big> {
     }
 }
 
-fn exact_call(function: Function, u: &Big) -> Option<Big> {
+pub(crate) fn exact_call(function: Function, u: &Big) -> Option<Big> {
     use Function::*;
     let zero = *u == Big::ZERO;
     let within_one = || (u * u <= one()).then_some(());

@@ -5,6 +5,7 @@
 //! and both are compared with the derived expressions, before they are lowered, in 120 digits.
 //! Shared by the test and by the example that prints the table.
 
+#[allow(dead_code, reason = "the campaign uses the rest")]
 mod arithmetic;
 
 use std::collections::BTreeMap;

@@ -10,7 +10,7 @@ use super::super::language::{Function, Math, PairFunction, Rational};
 use super::Dag;
 
 /// Integer powers of constants are folded up to this exponent; larger ones stay symbolic.
-const LARGEST_FOLDED_EXPONENT: i64 = 512;
+const LARGEST_FOLDED_EXPONENT: u64 = 512;
 
 impl Dag {
     /// a + b
@@ -181,7 +181,7 @@ impl Dag {
     fn integer_power(&mut self, a: Id, n: i64, exponent: Id) -> Id {
         match self[a].clone() {
             Math::Constant(value)
-                if n.abs() <= LARGEST_FOLDED_EXPONENT && !(value.is_zero() && n < 0) =>
+                if n.unsigned_abs() <= LARGEST_FOLDED_EXPONENT && !(value.is_zero() && n < 0) =>
             {
                 self.constant(value.pow(n as i32))
             }

@@ -47,6 +47,10 @@ pub(super) struct Algebra {
     pub(super) positive: BTreeSet<Atom>,
     /// Polynomials that are not negative on the domain.
     pub(super) positive_factors: Vec<Polynomial>,
+    /// Whether only zero or not matters: constants are then written by one another.
+    pub(super) decides: bool,
+    /// The atom exp(iπ), where it occurs.
+    pub(super) half_turn: Option<Atom>,
     pub(super) has_roots: bool,
     has_phases: bool,
     /// How deep reductions of roots are nested just now.
@@ -69,6 +73,8 @@ impl Algebra {
             factors: Vec::new(),
             positive: BTreeSet::new(),
             positive_factors: Vec::new(),
+            decides: false,
+            half_turn: None,
             has_roots: false,
             has_phases: false,
             depth: 0,

@@ -121,15 +121,33 @@ impl Algebra {
         Ok(result)
     }
 
+    /// A polynomial as a term times factors, or times one over a sum of roots.
+    fn factorise_roots(
+        &mut self,
+        polynomial: &Polynomial,
+    ) -> Result<(Term, Factors, Option<Fraction>), Obstacle> {
+        if self.decides && polynomial.len() > 1 {
+            let (unit, primitive) = self.primitive_part(polynomial)?;
+            if let Some(roots) = self.inverse_of_roots(&primitive)? {
+                return Ok((unit, Factors::new(), Some(roots)));
+            }
+        }
+        let (unit, factors) = self.factorise(polynomial)?;
+        Ok((unit, factors, None))
+    }
+
     /// 1/a
     pub(super) fn inverse(&mut self, a: &Fraction) -> Result<Fraction, Obstacle> {
         if a.is_zero() {
             return Err(Obstacle::Undefined);
         }
-        let (unit, factors) = self.factorise(&a.numerator)?;
+        let (unit, factors, roots) = self.factorise_roots(&a.numerator)?;
         let numerator = self.reduce(Polynomial::from(unit.inverse()?))?;
         let expanded = self.expand(&a.denominator)?;
-        let numerator = self.mul(&numerator, &expanded)?;
+        let mut numerator = self.mul(&numerator, &expanded)?;
+        if let Some(roots) = roots {
+            numerator = self.mul(&numerator, &roots)?;
+        }
         let denominator = merge_factors(&numerator.denominator, &factors, u32::checked_add)?;
         let mut result = Fraction {
             numerator: numerator.numerator,

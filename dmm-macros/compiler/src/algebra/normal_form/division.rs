@@ -48,6 +48,9 @@ impl Polynomial {
     /// one ends.
     pub(super) fn divide(&self, divisor: &Self, budget: &Budget) -> Option<Self> {
         let leading = divisor.terms().first()?;
+        if divisor.len() > 1 && !self.is_zero() && !self.has_what_varies(divisor) {
+            return None;
+        }
         let inverse = leading.inverse().ok()?;
         if divisor.len() == 1 {
             return self.times_term(&inverse).ok();
@@ -72,6 +75,27 @@ impl Polynomial {
             quotient.push(term);
         }
         Some(Self::from_sorted(quotient))
+    }
+
+    /// Whether the atoms whose exponents differ between the first and the last term of `divisor`
+    /// occur here, as they do in every multiple. Most factors of a table are found out by it,
+    /// without looking at all of their terms.
+    fn has_what_varies(&self, divisor: &Self) -> bool {
+        let (Some(first), Some(last)) = (divisor.terms().first(), divisor.terms().last()) else {
+            return true;
+        };
+        let varying = |one: &Term, other: &Term| {
+            one.monomial.iter().all(|power| {
+                monomial::exponent_of(&other.monomial, power.atom) == power.exponent
+                    || self.has_atom(power.atom)
+            })
+        };
+        varying(first, last) && varying(last, first)
+    }
+
+    fn has_atom(&self, atom: Atom) -> bool {
+        let mut terms = self.terms().iter();
+        terms.any(|term| term.monomial.iter().any(|power| power.atom == atom))
     }
 
     fn quotient_bounds(&self, divisor: &Self) -> Option<Vec<(Atom, Exponent, Exponent)>> {

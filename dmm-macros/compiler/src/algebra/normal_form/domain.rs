@@ -83,20 +83,23 @@ impl Algebra {
     /// Takes factors out of `u` that are not negative on the domain: with their exponents, and
     /// `u` what is left.
     pub(super) fn split_assumed(
-        &mut self,
+        &self,
         u: &mut Fraction,
     ) -> Result<Vec<(Fraction, Exponent)>, Obstacle> {
         let mut taken: Vec<(Fraction, Exponent)> = Vec::new();
-        for polynomial in self.positive_factors.clone() {
+        for polynomial in &self.positive_factors {
             let mut exponent = 0_i32;
-            let opposite = polynomial.neg();
+            let is_opposite = |factor: &Polynomial| {
+                factor.len() == polynomial.len() && *factor == polynomial.neg()
+            };
             for (index, multiplicity) in std::mem::take(&mut u.denominator) {
                 let factor = self.factor(index).ok_or(Obstacle::Undefined)?;
-                if *factor != polynomial && *factor != opposite {
+                let opposite = is_opposite(factor);
+                if factor != polynomial && !opposite {
                     u.denominator.push((index, multiplicity));
                     continue;
                 }
-                if *factor == opposite && multiplicity % 2 == 1 {
+                if opposite && multiplicity % 2 == 1 {
                     u.numerator = u.numerator.neg();
                 }
                 let multiplicity = i32::try_from(multiplicity).map_err(|_| Obstacle::TooLarge)?;
@@ -105,13 +108,13 @@ impl Algebra {
                     .ok_or(Obstacle::TooLarge)?;
             }
             while u.numerator.len() > 1
-                && let Some(quotient) = u.numerator.divide(&polynomial, &self.budget)
+                && let Some(quotient) = u.numerator.divide(polynomial, &self.budget)
             {
                 u.numerator = quotient;
                 exponent = exponent.checked_add(1).ok_or(Obstacle::TooLarge)?;
             }
             if exponent != 0 {
-                taken.push((polynomial.into(), Exponent::integer(exponent)));
+                taken.push((polynomial.clone().into(), Exponent::integer(exponent)));
             }
         }
         Ok(taken)
@@ -134,6 +137,18 @@ impl Algebra {
             numerator,
             denominator,
         }))
+    }
+
+    /// Whether `u` is positive or zero term by term, above and below.
+    pub(super) fn is_evident_quotient(&self, u: &Fraction) -> bool {
+        let mut factors = u.denominator.iter();
+        self.is_evidently_positive(&u.numerator)
+            && factors.all(|&(index, multiplicity)| {
+                multiplicity % 2 == 0
+                    || self
+                        .factor(index)
+                        .is_some_and(|factor| self.is_evidently_positive(factor))
+            })
     }
 
     fn evident_polynomial_root(

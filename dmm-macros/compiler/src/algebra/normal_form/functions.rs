@@ -100,7 +100,7 @@ impl Algebra {
     }
 
     /// π·n/d
-    fn pi_times(&mut self, n: i64, d: i64) -> Result<Fraction> {
+    pub(super) fn pi_times(&mut self, n: i64, d: i64) -> Result<Fraction> {
         let pi = self.intern(Kind::Pi)?;
         Ok(Fraction::atom(pi).scaled(&Coefficient::real(Number::Small(n, d))))
     }
@@ -177,7 +177,8 @@ impl Algebra {
     fn phase(&mut self, u: &Fraction) -> Result<Fraction> {
         let mut product = Fraction::one();
         for (c, key) in self.linear(u)? {
-            let multiple = c.as_integer().filter(|n| n.abs() <= LARGEST_MULTIPLE);
+            let is_small = |n: &i64| (-LARGEST_MULTIPLE..=LARGEST_MULTIPLE).contains(n);
+            let multiple = c.as_integer().filter(is_small);
             let factor = match (self.as_atom(&key), multiple) {
                 (Some(Kind::Pi), _) => self.root_of_unity(&c)?,
                 (Some(Kind::Call(Function::Asin, w)), Some(n)) => {
@@ -188,6 +189,21 @@ impl Algebra {
                     let phase = self.phase_of_atan(&w, n < 0)?;
                     self.integer_power(&phase, n.abs())?
                 }
+                (Some(Kind::Call(function @ (Function::Asin | Function::Atan), w)), None)
+                    if self.decides && self.half_multiple(&c).is_some() =>
+                {
+                    let n = self.half_multiple(&c).unwrap_or_default();
+                    let [forward, backward] = match function {
+                        Function::Asin => [false, true].map(|sign| self.phase_of_asin(&w, sign)),
+                        _ => [false, true].map(|sign| self.phase_of_atan(&w, sign)),
+                    };
+                    let (mut forward, mut backward) = (forward?, backward?);
+                    if n < 0 {
+                        std::mem::swap(&mut forward, &mut backward);
+                    }
+                    let half = self.half_phase(&forward, &backward)?;
+                    self.integer_power(&half, n.abs())?
+                }
                 _ => {
                     let atom = self.intern(Kind::Phase(key))?;
                     Polynomial::atom(atom, Exponent::from_number(&c)?).into()
@@ -196,6 +212,15 @@ impl Algebra {
             product = self.mul(&product, &factor)?;
         }
         Ok(product)
+    }
+
+    /// n, if `c` is n/2 and small.
+    fn half_multiple(&self, c: &Number) -> Option<i64> {
+        match c {
+            Number::Small(n, 2) => Some(*n),
+            _ => None,
+        }
+        .filter(|n| (-LARGEST_MULTIPLE..=LARGEST_MULTIPLE).contains(n))
     }
 
     /// exp(±i asin w) = √(1 − w²) ± i w
@@ -226,7 +251,7 @@ impl Algebra {
     }
 
     /// exp(i π c): by √2 and √3 for multiples of π/4 and π/6, else a power of exp(i π).
-    fn root_of_unity(&mut self, c: &Number) -> Result<Fraction> {
+    pub(super) fn root_of_unity(&mut self, c: &Number) -> Result<Fraction> {
         let exponent = Exponent::from_number(c)?;
         let whole = exponent.floor();
         let rest = exponent.sub(Exponent::integer(whole))?;
@@ -245,10 +270,14 @@ impl Algebra {
             _ => None,
         };
         let Some((cosine, sine)) = squares else {
-            let pi = self.intern(Kind::Pi)?;
-            let key = Fraction::atom(pi);
-            let atom = self.intern(Kind::Phase(key))?;
-            let phase = Fraction::from(Polynomial::atom(atom, rest));
+            let mut phase = None;
+            if let Number::Small(n, q) = rest.to_number() {
+                phase = self.root_of_unity_by_roots(n, q)?;
+            }
+            let phase = match phase {
+                Some(phase) => phase,
+                None => self.power_of_half_turn(rest)?,
+            };
             return Ok(phase.scaled(&Coefficient::real(Number::integer(sign))));
         };
         let [cosine, sine] = [cosine, sine].map(|(own_sign, n, d)| -> Result<Fraction> {
@@ -260,11 +289,17 @@ impl Algebra {
     }
 
     /// asin or atan, odd, with the values that are simple multiples of π.
-    fn arc(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
+    pub(super) fn arc(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
         if u.is_zero() {
             return Ok(Fraction::zero());
         }
         let u = self.cancel(u.clone());
+        // the sign of a constant is not that of its first term
+        if self.is_algebraic(&u)
+            && let Some(angle) = self.arc_by_another(function, &u)?
+        {
+            return Ok(angle);
+        }
         if u.leads_negative() {
             return Ok(self.arc(function, &u.neg())?.neg());
         }
@@ -273,6 +308,9 @@ impl Algebra {
             (Function::Asin, Some(Number::Small(1, 1))) => return self.pi_times(1, 2),
             (Function::Atan, Some(Number::Small(1, 1))) => return self.pi_times(1, 4),
             _ => {}
+        }
+        if let Some(angle) = self.arc_by_another(function, &u)? {
+            return Ok(angle);
         }
         let atom = self.intern(Kind::Call(function, u))?;
         Ok(Fraction::atom(atom))

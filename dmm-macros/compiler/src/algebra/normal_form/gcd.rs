@@ -31,6 +31,11 @@ pub(super) fn common_divisor(
     stretched(&divisor, &scale, true)
 }
 
+/// `None` if it is too large.
+fn least_common_multiple(a: i64, b: i64) -> Option<i64> {
+    (a / a.gcd(&b)).checked_mul(b)
+}
+
 /// The least common denominator of the exponents of every atom.
 fn common_denominators(a: &Polynomial, b: &Polynomial) -> Option<Vec<(Atom, i64)>> {
     let mut scale: Vec<(Atom, i64)> = Vec::new();
@@ -41,7 +46,7 @@ fn common_denominators(a: &Polynomial, b: &Polynomial) -> Option<Vec<(Atom, i64)
                 Number::Big(_) => return None,
             };
             match scale.iter_mut().find(|(atom, _)| *atom == power.atom) {
-                Some((_, known)) => *known = known.lcm(&denominator),
+                Some((_, known)) => *known = least_common_multiple(*known, denominator)?,
                 None => scale.push((power.atom, denominator)),
             }
         }

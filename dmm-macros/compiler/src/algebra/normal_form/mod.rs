@@ -13,8 +13,10 @@
 //! expression that is clearly non-zero at a point; the third answer is "undecided".
 
 mod algebra;
+mod angles;
 mod arithmetic;
 mod common;
+mod constants;
 mod decide;
 mod division;
 mod domain;

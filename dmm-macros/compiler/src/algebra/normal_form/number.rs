@@ -24,6 +24,20 @@ impl Number {
         Self::Small(value, 1)
     }
 
+    /// n/d, d > 0.
+    pub(super) fn from_ratio(n: i64, d: i64) -> Self {
+        Self::from_wide(n.into(), d.into())
+    }
+
+    /// The nearest double, if it is finite.
+    pub(super) fn to_f64(&self) -> Option<f64> {
+        let value = match self {
+            Self::Small(n, d) => *n as f64 / *d as f64,
+            Self::Big(value) => value.to_f64()?,
+        };
+        value.is_finite().then_some(value)
+    }
+
     pub(super) fn from_rational(value: &Rational) -> Self {
         match (value.numer().to_i64(), value.denom().to_i64()) {
             (Some(numerator), Some(denominator)) => Self::Small(numerator, denominator),

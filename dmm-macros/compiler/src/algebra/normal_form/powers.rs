@@ -42,10 +42,13 @@ impl Algebra {
             Rest::One => return Ok(sum),
             Rest::Power(atom, exponent) => self.ln_of_atom(atom, exponent)?,
             Rest::Inverse(denominator) => self.ln(&denominator)?.neg(),
-            Rest::Fraction(rest) => {
-                let atom = self.intern(Kind::Call(Function::Ln, rest))?;
-                Fraction::atom(atom)
-            }
+            Rest::Fraction(rest) => match self.ln_by_earlier(&rest)? {
+                Some(logarithm) => logarithm,
+                None => {
+                    let atom = self.intern(Kind::Call(Function::Ln, rest))?;
+                    Fraction::atom(atom)
+                }
+            },
         };
         self.add(&sum, &rest)
     }
@@ -102,13 +105,19 @@ impl Algebra {
             Rest::Inverse(denominator) => {
                 self.rational_power(&denominator, &r.neg()?.to_number())?
             }
-            Rest::Fraction(rest) => match self.evident_root(&rest)? {
-                Some(root) => {
-                    let doubled = r.add(r)?.to_number();
-                    self.rational_power(&root, &doubled)?
+            Rest::Fraction(rest) => {
+                let mut simpler = self.evident_root(&rest)?.map(|root| (root, 2));
+                if simpler.is_none() {
+                    simpler = self.simpler_root(&rest, r)?;
                 }
-                None => self.root(rest, r)?,
-            },
+                match simpler {
+                    Some((root, degree)) => {
+                        let exponent = r.to_number().mul(&Number::integer(degree));
+                        self.rational_power(&root, &exponent)?
+                    }
+                    None => self.root(rest, r)?,
+                }
+            }
         };
         self.mul(&product, &rest)
     }
@@ -132,6 +141,11 @@ impl Algebra {
         let power = self.integer_power(&base, whole.into())?;
         if rest.is_zero() {
             return Ok(power);
+        }
+        if rest.to_number() == Number::Small(1, 2)
+            && let Some(root) = self.by_earlier_root(&base)?
+        {
+            return self.mul(&power, &root);
         }
         let atom = self.intern(Kind::Root(base))?;
         self.mul(&power, &Polynomial::atom(atom, rest).into())
@@ -205,6 +219,21 @@ impl Algebra {
             [only] if simple && u.denominator.is_empty() => Rest::Power(only.atom, only.exponent),
             [] if primitive.is_one() && u.denominator.is_empty() => {
                 return Err(Obstacle::Undefined);
+            }
+            // ±1/(m d) = 1/(±m d), so that both have the same root
+            powers
+                if primitive.is_one()
+                    && self.decides
+                    && !u.denominator.is_empty()
+                    && powers.iter().all(|power| power.exponent.is_negative()) =>
+            {
+                let unit = Term {
+                    monomial: signed,
+                    coefficient: Coefficient::real(sign),
+                };
+                let below = self.expand(&u.denominator)?;
+                let unit = Fraction::from(Polynomial::from(unit.inverse()?));
+                Rest::Inverse(self.mul(&below, &unit)?)
             }
             _ => {
                 let unit = Term {

@@ -13,6 +13,10 @@ const DEEPEST_REDUCTION: usize = 24;
 impl Algebra {
     /// Replaces the integer parts of roots' exponents by their bases.
     pub(super) fn reduce(&mut self, polynomial: Polynomial) -> Result<Fraction, Obstacle> {
+        let polynomial = self.on_circle(polynomial)?;
+        if let Some(simple) = self.simple_turns(&polynomial)? {
+            return Ok(simple);
+        }
         if !self.has_roots {
             return Ok(polynomial.into());
         }

@@ -75,8 +75,9 @@ fn shared_calls_are_written_out_once() {
 fn nothing_hangs() {
     let long =
         "this declaration is too long: written out, its loops and functions have too many parts";
+    let deep = "a formula is nested more than 160 deep";
     for (items, message) in [
-        (tower("a*(a + 1)", "f(f(a))", "f59(x)"), long),
+        (tower("a*(a + 1)", "f(f(a))", "f59(x)"), deep),
         (tower("sin(a)", "f(a + 1)*f(a - 1.5)", "f59(x)"), long),
         (tower("a*a", "f(f(a))", "f59(x)"), "integer powers are supported up to the exponent 100"),
         (tower("a + a", "f(f(a))", "f59(x)"), "beyond the range of floating-point numbers"),
@@ -125,6 +126,31 @@ fn deep_formulas_do_not_overflow_the_stack() {
         ),
         &["in `f1(a)`: this declaration is too long: its functions and sums are nested too deeply"],
     );
+}
+
+#[test]
+fn what_names_stand_for_is_not_nested_too_deeply() {
+    let nested = |of: &str, levels: usize| {
+        let names: Vec<String> = (0..levels)
+            .map(|k| format!("let l{} = {};", k + 1, of.replace('x', &format!("l{k}"))))
+            .collect();
+        format!(
+            "state y; let l0 = y; {} der(y) = l{levels};",
+            names.join(" ")
+        )
+    };
+    for of in ["sin(x)", "1/(1 + x)", "(1 + x)^2"] {
+        let messages = messages(&nested(of, 3_000));
+        assert_eq!(messages.len(), 1, "{of}: {messages:?}");
+        assert!(
+            messages[0].contains("nested more than 160 deep"),
+            "{of}: {messages:?}"
+        );
+    }
+    // sums of sums are of one level
+    for (of, levels) in [("sin(x)", 150), ("x + 2*y", 3_000)] {
+        assert_eq!(messages(&nested(of, levels)), Vec::<String>::new(), "{of}");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ super::codes! {
         "∂ₜψ + ∇ψ·f is not zero: it is shown with a point at which it is not.",
         "Correct the sign or the factor in ψ or in f, or leave the quantity out.";
     NOT_PROVED = 301, "a quantity could not be proved to be conserved",
-        "∂ₜψ + ∇ψ·f was found neither to be zero nor clearly not to be: the normal form does not know every relation between roots, logarithms and inverse functions.",
+        "∂ₜψ + ∇ψ·f was found neither to be zero nor clearly not to be: the normal form does not know every relation between roots, logarithms and inverse functions. Or the work that the proofs of a declaration may take ran out, as the message then says.",
         "Write ψ or f in another way, or accept the quantity with `assume conserved`, which checks it numerically at many points.";
     ASSUMED_UNCHECKED = 302, "an assumed quantity could not be checked",
         "`assume conserved` compares ∂ₜψ + ∇ψ·f with its terms at many points. At too few of them the formulas have a value, or the terms are more than the rounding errors of what cancels within them.",

@@ -253,7 +253,7 @@ fn a_dependence_is_an_error_only_if_it_is_proved() {
     // x(1 + √2) and x√(3 + 2√2) are the same, which the normal form does not see
     let model = sound(
         "state x, y; der(x) = 0; der(y) = 1;
-         conserved a = (1 + sqrt(2))*x; conserved b = sqrt(3 + 2*sqrt(2))*x + y - t;",
+         conserved a = (1 - 2^(1/3) + 4^(1/3))*x; conserved b = (9*2^(1/3) - 9)^(1/3)*x + y - t;",
     );
     assert!(matches!(
         model.regions[0].independence,
@@ -261,7 +261,7 @@ fn a_dependence_is_an_error_only_if_it_is_proved() {
     ));
     let model = sound(
         "state x, y, z; der(x) = 0; der(y) = 0; der(z) = 1;
-         conserved a = (1 + sqrt(2))*x + y; conserved b = sqrt(3 + 2*sqrt(2))*x + y;",
+         conserved a = (1 - 2^(1/3) + 4^(1/3))*x + y; conserved b = (9*2^(1/3) - 9)^(1/3)*x + y;",
     );
     assert_eq!(model.regions[0].independence, Independence::Nothing);
 }

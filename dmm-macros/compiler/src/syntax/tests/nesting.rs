@@ -59,3 +59,14 @@ fn nested_loops_and_blocks_are_refused_not_overflowed() {
         assert!(messages[0].contains("nested too deeply"), "{messages:?}");
     }
 }
+
+#[test]
+fn long_numbers_are_refused_before_they_are_read() {
+    for number in ["7".repeat(100_000), format!("0.{}", "7".repeat(100_000))] {
+        let messages = formula_messages(&number);
+        assert_eq!(messages.len(), 1, "{messages:?}");
+        assert!(messages[0].contains("digits"), "{messages:?}");
+    }
+    let tiny = format!("0.{}1", "0".repeat(1_000));
+    assert_eq!(formula_messages(&tiny), Vec::<String>::new());
+}

@@ -55,28 +55,34 @@ fn located(path: &Path, span: Span, message: &str) -> String {
     )
 }
 
-/// The contents of every `pws! { … }`.
+/// The contents of every `pws! { … }`, in their order. The search does not recurse: brackets may
+/// be nested as deeply as the file likes.
 fn blocks(tokens: TokenStream, found: &mut Vec<TokenStream>) {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    let mut rest = tokens.as_slice();
-    loop {
-        rest = match rest {
+    let mut open = vec![(tokens.into_iter().collect::<Vec<TokenTree>>(), 0)];
+    while let Some((tokens, place)) = open.last_mut() {
+        let inner = match tokens.get(*place..).unwrap_or_default() {
             [
                 TokenTree::Ident(name),
                 TokenTree::Punct(mark),
                 TokenTree::Group(group),
-                rest @ ..,
+                ..,
             ] if name == "pws" && mark.as_char() == '!' => {
                 found.push(group.stream());
-                rest
+                *place += 3;
+                continue;
             }
-            [TokenTree::Group(group), rest @ ..] => {
-                blocks(group.stream(), found);
-                rest
+            [TokenTree::Group(group), ..] => group.stream(),
+            [_, ..] => {
+                *place += 1;
+                continue;
             }
-            [_, rest @ ..] => rest,
-            [] => return,
+            [] => {
+                open.pop();
+                continue;
+            }
         };
+        *place += 1;
+        open.push((inner.into_iter().collect(), 0));
     }
 }
 
@@ -91,4 +97,21 @@ fn is_declaration(tokens: &TokenStream) -> bool {
         ] => word == "system" && body.delimiter() == Delimiter::Brace,
         _ => false,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_are_found_however_deep_brackets_are_nested() {
+        let deep = format!("{}{}", "(".repeat(100_000), ")".repeat(100_000));
+        let text = format!("pws! {{ a }} mod m {{ pws! {{ b }} {deep} }} pws! {{ c {deep} }}");
+        let tokens: TokenStream = text.parse().expect("tokens");
+        let mut found = Vec::new();
+        blocks(tokens, &mut found);
+        let first = |block: &TokenStream| block.clone().into_iter().next().map(|t| t.to_string());
+        let names: Vec<String> = found.iter().filter_map(first).collect();
+        assert_eq!(names, ["a", "b", "c"]);
+    }
 }
