@@ -234,7 +234,8 @@ impl<'a, R: Real> Step<'a, R> {
             let after = self.rates(end);
             for (interface, side) in sides.iter().enumerate() {
                 let (a, b) = (before[interface].rate * side, after[interface].rate * side);
-                if a * b < 0.0 {
+                // signs, because products underflow where g is flat
+                if (a < 0.0) != (b < 0.0) {
                     found.extrema.push(Extremum {
                         interface,
                         tau: self.extremum((from, end), interface, a * side),
@@ -325,7 +326,7 @@ impl<'a, R: Real> Step<'a, R> {
     fn extremum(&self, (mut from, mut to): (f64, f64), interface: usize, rate: f64) -> f64 {
         for _ in 0..50 {
             let middle = 0.5 * (from + to);
-            match self.rates(middle)[interface].rate * rate > 0.0 {
+            match (self.rates(middle)[interface].rate < 0.0) == (rate < 0.0) {
                 true => from = middle,
                 false => to = middle,
             }

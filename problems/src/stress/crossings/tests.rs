@@ -145,6 +145,20 @@ fn contacts_tell_how_near_a_solution_came() {
 }
 
 #[test]
+fn a_flat_bell_is_left_and_entered_far_from_any_contact() {
+    // for x > 0.4 the bell is 10⁻³⁰⁰ and less: its slope underflows
+    let bell = Formulas::of(|w| {
+        let [x, _] = w.state();
+        vec![((x + 1.0).square() * -400.0).exp() - 1e-30]
+    });
+    let solution = accurate(&oscillator(bell, [0.0, 1.0]), 20.0, 1000);
+    assert_eq!(solution.crossings.len(), 6);
+    let least = solution.contacts.iter().map(|contact| contact.margin);
+    let least = least.fold(f64::INFINITY, f64::min);
+    assert!(least > 1e-3, "{least:e}");
+}
+
+#[test]
 fn sliding_and_accumulation_end_a_solution() {
     let field = |a: f64| {
         Formulas::of(move |w| {
