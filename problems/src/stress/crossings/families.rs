@@ -383,7 +383,7 @@ pws! {
 
 impl Family<2> for Clock {
     const TITLE: &'static str = "clock";
-    const ORDER: usize = 8;
+    const ORDER: usize = 6;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let is_free = random.once_in(3);
@@ -698,7 +698,7 @@ pws! {
 
 impl Family<2> for Bell {
     const TITLE: &'static str = "bell";
-    const ORDER: usize = 6;
+    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let a = random.decades(0.5, 400.0);
@@ -762,7 +762,7 @@ pws! {
 
 impl Family<2> for Sheets {
     const TITLE: &'static str = "three sheets";
-    const ORDER: usize = 8;
+    const ORDER: usize = 4;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let system = Self {
@@ -907,7 +907,7 @@ pws! {
 
 impl Family<3> for Space {
     const TITLE: &'static str = "affine, space";
-    const ORDER: usize = 6;
+    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 3]) {
         let flat = |rows: [[f64; 3]; 3]| std::array::from_fn(|k| rows[k / 3][k % 3]);
