@@ -4,6 +4,7 @@
 //! One file a study, each a function that makes its runs, judges them by bounds with a reason,
 //! and draws what it saw.
 
+mod crossings;
 mod failures;
 mod growth;
 mod long;
@@ -126,7 +127,7 @@ impl Study {
 }
 
 /// All studies.
-pub const STUDIES: [Study; 7] = [
+pub const STUDIES: [Study; 9] = [
     Study {
         name: "long",
         title: "conservation within segments over up to 10⁹ steps",
@@ -156,6 +157,16 @@ pub const STUDIES: [Study; 7] = [
         name: "tangency",
         title: "crossings at angles from 10⁻¹ to 10⁻¹²",
         study: tangency::study,
+    },
+    Study {
+        name: "crossings",
+        title: "random systems beside a solution whose signs of g are certain",
+        study: crossings::study,
+    },
+    Study {
+        name: "affine",
+        title: "random affine systems, by exact flows and by Taylor series",
+        study: crossings::affine_study,
     },
     Study {
         name: "failures",
