@@ -332,7 +332,8 @@ pub trait Boundary<S: Scalar, const N: usize>: Clone {
     /// g(t, x)
     fn switching_function(&self, interface: usize, t: S, x: &Vector<S, N>) -> S;
 
-    /// Σ|terms of g(t, x)|, the size that the rounding error of g is measured against.
+    /// The size that the rounding error of g(t, x) is measured against: Σ|terms|, where the error of
+    /// each factor of a product counts as often as the others are large.
     fn switching_size(&self, interface: usize, t: S, x: &Vector<S, N>) -> S;
 
     /// ∂ₜg and ∇g at (t, x).

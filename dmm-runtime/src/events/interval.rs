@@ -109,7 +109,8 @@ impl Interval {
     fn wave(self, function: impl Fn(f64) -> f64, crest: f64) -> Self {
         /// Beyond this a turn is not resolved.
         const FAR: f64 = 1e6;
-        if !(self.magnitude() < FAR) {
+        let is_near = self.magnitude() < FAR;
+        if !is_near {
             return Self::new(-1.0, 1.0);
         }
         let (a, b) = (function(self.low), function(self.high));

@@ -180,15 +180,19 @@ where
         match (near, once) {
             (true, _) => match part.half() {
                 Some(half) => Ahead::Undecided(half),
-                None => self.first::<P, M, F, U>(flow, jet, here, tau, (fresh, part)),
+                None if const { <F::Boundary as Boundary<f64, N>>::AFFINE } => {
+                    self.first::<P, M, F, U>(flow, jet, here, tau, (fresh, part))
+                }
+                // between roots that are close g is smaller than the rounding errors of its series
+                None => self.first_enclosed::<P, M, F, U>(flow, jet, here, tau, (fresh, part)),
             },
             (false, Some(found)) => Ahead::Crossing(found),
             (false, None) => Ahead::Free,
         }
     }
 
-    /// The first crossing of a step by all coefficients of every g. What comes as close to an
-    /// interface as the error of the step, and returns, is left undecided.
+    /// The first crossing of a step by all coefficients of every g, which is affine. What comes as
+    /// close to an interface as the error of the step, and returns, is left undecided.
     #[cold]
     #[inline(never)]
     fn first<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
@@ -250,8 +254,9 @@ where
         first.map_or(Ahead::Free, Ahead::Crossing)
     }
 
-    /// The first crossing of a step where the series of a switching function may converge more
-    /// slowly than that of the state: by enclosures of it along the solution's polynomial.
+    /// The first crossing of a step by enclosures of every g along the solution's polynomial: where
+    /// its series may converge more slowly than that of the state, or the ends of the step do not
+    /// tell enough.
     #[cold]
     #[inline(never)]
     fn first_enclosed<const P: usize, const M: usize, F: Flow<f64, N, M>, U: Unroll>(
@@ -284,7 +289,9 @@ where
                 search.first(fresh)
             } else {
                 let boundary = flow.boundary();
-                let size = boundary.switching_size(interface, path.t0, &here.state.x);
+                let size =
+                    |s: f64| boundary.switching_size(interface, path.time(s), &path.state(s));
+                let size = size(0.0).max(size(end));
                 search.first_clear(fresh, self.scheme.undecided() * size)
             };
             match met {

@@ -1,4 +1,4 @@
-//! The boundary of the regions: an `impl Boundary` with g, Σ|terms of g|, ∂ₜg and ∇g.
+//! The boundary of the regions: an `impl Boundary` with g, a bound of its rounding error, ∂ₜg and ∇g.
 //!
 //! The functions are the same for every region; only the sides differ, and a region is a
 //! constant of the type.
@@ -11,7 +11,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::function::{Arguments, Functions};
-use super::lower::{Lowered, size};
+use super::lower::{Lowered, rounding};
 use super::paths;
 use super::series::{Series, States};
 use super::store::{Store, constructor_impl};
@@ -25,7 +25,7 @@ use crate::scheme::{Guard, Scheme, SwitchingScheme};
 pub(super) struct Nodes {
     /// g
     value: Id,
-    /// Σ|terms of g|
+    /// A bound of the rounding error of g, in units of that of 1.
     size: Id,
     /// ∂ₜg
     time_derivative: Id,
@@ -44,7 +44,7 @@ pub(super) fn operations(
     let mut target = Lowered::new(parameters);
     let nodes = functions(scheme)
         .map(|(function, derivatives)| {
-            let size = size(dag, function);
+            let size = rounding(dag, function);
             let size = lowered.lower(dag, size);
             let mut nodes = Nodes {
                 value: lowered.lower(dag, function),
@@ -246,7 +246,7 @@ fn implementation(
             /// g(t, x)
             #[inline]
             fn switching_function(&self, #point) -> #scalar { #value }
-            /// Σ|terms of g(t, x)|
+            /// A bound of the rounding error of g(t, x), in units of that of 1
             #[inline]
             fn switching_size(&self, #point) -> #scalar { #size }
             /// ∂ₜg(t, x) and ∇g(t, x)

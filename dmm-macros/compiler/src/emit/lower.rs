@@ -289,6 +289,51 @@ pub(super) fn size(dag: &mut Dag, root: Id) -> Id {
     sizes[&root]
 }
 
+/// A bound of the rounding error of `root`, in units of the rounding error of 1, to first order:
+/// of its operations and of its variables. In a product each factor's error counts as often as the
+/// other factor is large, so that it is small where the product is, but for sums that cancel.
+pub(super) fn rounding(dag: &mut Dag, root: Id) -> Id {
+    let mut errors: HashMap<Id, Id> = HashMap::new();
+    for id in dag.reachable([root]) {
+        let error = match dag[id].clone() {
+            Math::Add([a, b]) | Math::Sub([a, b]) => dag.add(errors[&a], errors[&b]),
+            Math::Mul([a, b]) => match (dag.as_constant(a), dag.as_constant(b)) {
+                (None, None) => {
+                    let (size_a, size_b) = (absolute(dag, a), absolute(dag, b));
+                    let of_a = dag.mul(size_b, errors[&a]);
+                    let of_b = dag.mul(size_a, errors[&b]);
+                    dag.add(of_a, of_b)
+                }
+                _ => dag.mul(errors[&a], errors[&b]),
+            },
+            Math::Div([a, b]) => {
+                let (size, divisor) = (absolute(dag, id), absolute(dag, b));
+                let of_a = dag.div(errors[&a], divisor);
+                match dag.as_constant(b) {
+                    Some(_) => of_a,
+                    None => {
+                        let part = dag.div(errors[&b], divisor);
+                        let of_b = dag.mul(size, part);
+                        dag.add(of_a, of_b)
+                    }
+                }
+            }
+            Math::Neg(a) => errors[&a],
+            Math::Pow([a, n]) if dag.as_integer(n).is_some_and(|n| n > 1) => {
+                let size = absolute(dag, a);
+                let one = dag.integer(1);
+                let less = dag.sub(n, one);
+                let power = dag.pow(size, less);
+                let part = dag.mul(power, errors[&a]);
+                dag.mul(n, part)
+            }
+            _ => absolute(dag, id),
+        };
+        errors.insert(id, error);
+    }
+    errors[&root]
+}
+
 /// |u|, without the bars where u cannot be negative.
 fn absolute(dag: &mut Dag, root: Id) -> Id {
     match dag[root].clone() {
