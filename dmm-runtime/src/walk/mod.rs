@@ -5,6 +5,7 @@
 //! interfaces is compiled away.
 
 mod adapt;
+mod ahead;
 mod arrive;
 mod expand;
 mod interfaces;
