@@ -12,7 +12,7 @@ macro_rules! pendulums {
 
             pws! {
                 /// A pendulum with a stronger torque beyond x = 0.2.
-                pub system Pendulum {
+                pub(super) system Pendulum {
                     state x, v;
                     interface border = $($g)+;
                     der(x) = v;

@@ -163,6 +163,19 @@ impl<const N: usize> Search<'_, N> {
         self.first(fresh)
     }
 
+    /// Whether g falls at the start and rises at the end, where it is positive, and bends upwards
+    /// throughout: whether it has one minimum. Its rounding error then.
+    pub(crate) fn single_dip(&self) -> Option<f64> {
+        let (start, end) = (self.place(0.0), self.place(self.end));
+        let noise = start.noise.max(end.noise);
+        let g = self
+            .switching
+            .enclosed(self.interface, self.path, 0.0, self.end);
+        let bends = g[2].turned(self.sign).low > 0.0;
+        let dips = start.reading.rate < 0.0 && end.reading.rate > 0.0;
+        (bends && dips && end.reading.value > -noise).then_some(noise)
+    }
+
     /// The place between two where g falls through zero.
     pub(crate) fn root(&self, lower: f64, upper: f64) -> f64 {
         const MOST: u32 = 200;

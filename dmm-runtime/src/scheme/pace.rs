@@ -213,7 +213,7 @@ impl<const N: usize> Pacer<N> {
     /// Lets sizes grow with the components. One that begins at or near zero counts as a part of
     /// what it changes by within the time in which the solution does.
     fn grow(&mut self, c: &[[f64; COEFFICIENTS]]) {
-        const PART: f64 = 0.1;
+        const PART: f64 = 1e-3;
         /// Sizes this many times as large as the present ones are forgotten.
         const FORGOTTEN: f64 = 1e100;
         let time = self.time_of_change(c);

@@ -1,6 +1,7 @@
 //! Transitions: where an integration starts, whether an interface is reached in a step, and
 //! the point where it is crossed.
 
+mod dip;
 mod guards;
 mod locate;
 mod meeting;
@@ -8,6 +9,7 @@ mod reading;
 mod start;
 pub(crate) mod watch;
 
+pub(crate) use dip::Dip;
 pub(crate) use guards::{check_guards, guard, guard_error};
 pub use locate::{Crossing, Located, Locator, NewtonLocator};
 pub(crate) use meeting::{Meeting, neighbour};

@@ -33,6 +33,11 @@ impl Watch {
         }
     }
 
+    /// Moves on after a step of another size: nothing is known of how g changes.
+    pub(crate) fn restart(&mut self) {
+        self.change = f64::INFINITY;
+    }
+
     /// Whether a step that ends at g = `end` has to be looked at: whether g comes nearer to zero
     /// than `reach` times the sum of its changes in this step and the one before.
     #[inline]

@@ -5,7 +5,7 @@ use crate::events::cubic::Course;
 use crate::events::ends::Ends;
 use crate::events::switching::NOISE;
 use crate::events::{Enclosed, Met, Path, Search};
-use crate::linear::dot;
+use crate::linear::{dot, is_finite};
 use crate::observer::Observer;
 use crate::scalar::Scalar;
 use crate::scheme::Taylor;
@@ -22,7 +22,7 @@ use crate::walk::expand::Here;
 
 /// What a step meets.
 pub(super) enum Ahead {
-    /// No interface.
+    /// No interface, or the step cannot be made at all.
     Free,
     /// An interface.
     Crossing(Found),
@@ -76,6 +76,9 @@ where
         (fresh, part): (Option<usize>, Part),
     ) -> Ahead {
         if !<F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE {
+            if !is_finite(&state.x) {
+                return Ahead::Free;
+            }
             return self.first_enclosed::<P, M, F, U>(flow, jet, here, tau, (fresh, part));
         }
         let field = flow.vector_field(time.value, &state.x);
@@ -111,6 +114,8 @@ where
         match (near, once) {
             (true, _) => match part.half() {
                 Some(half) => Ahead::Undecided(half),
+                // the step cannot be made
+                None if !is_finite(&state.x) => Ahead::Free,
                 None if const { <F::Boundary as Boundary<f64, N>>::AFFINE } => {
                     self.first::<P, M, F, U>(flow, jet, here, tau, (fresh, part))
                 }

@@ -205,7 +205,9 @@ where
         /// A displacement of this part of the state or of the step has an error of second order far below a
         /// rounding error of doubles, and after one more of pairs.
         const SMALL: f64 = 1e-11;
-        let corrects = self.scheme.corrects_level();
+        // beyond a guard ψ may have another value
+        let is_interface = guard::<Sys, N>(interface).is_none();
+        let corrects = is_interface && self.scheme.corrects_level();
         let increment = state.x - self.state.x;
         let weights = Weights::new(&state.x, &increment);
         let small = SMALL * SMALL * (dot(&state.x, &state.x) + dot(&increment, &increment));

@@ -13,7 +13,7 @@ use crate::series::jet::FIRST;
 use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, Side, System, Vector};
 use crate::transition::watch::Watch;
-use crate::transition::{Crossing, Located, Locator, guard, rate};
+use crate::transition::{Crossing, Dip, Located, Locator, guard, rate};
 use crate::walk::{SegmentEnd, Walk};
 
 /// A watch for each interface that bounds the region of a flow.
@@ -147,33 +147,54 @@ where
                 end: dense.tau / dense.path.unit,
                 level: 0.0,
             };
-            let bracket = match by_ends::<N, M, F>(&enclosed, &search, dense, watch.fresh) {
-                Course::Free => continue,
-                Course::Falls { from, .. } => (from, search.end),
-                Course::Unknown => {
-                    search.end = end / dense.path.unit;
-                    let (met, touches) = search.first(watch.fresh);
-                    self.statistics.grazes += u64::from(touches);
-                    match met {
-                        Met::Nothing => continue,
-                        Met::Crossing { lower, upper } => (lower, upper),
-                        Met::Undecided(_) => return Err(self.unknown(interface, dense.tau)),
-                    }
-                }
-            };
             let unit = dense.path.unit;
-            let bracket = (bracket.0 * unit, (bracket.1 * unit).min(dense.tau));
-            let crossing = Crossing {
+            let mut crossing = Crossing {
                 scheme: self.scheme.map(),
                 flow,
                 interface,
                 t0: self.time.value,
                 state: &self.state,
-                lower: bracket.0,
-                upper: bracket.1,
+                lower: 0.0,
+                upper: dense.tau,
                 step_size: self.scheme.typical_step(&self.progress),
                 sign: side.sign(),
             };
+            match by_ends::<N, M, F>(&enclosed, &search, dense, watch.fresh) {
+                Course::Free => continue,
+                Course::Falls { from, .. } => crossing.lower = from * unit,
+                Course::Unknown => {
+                    let statistics = &mut self.statistics;
+                    let dip = match search.single_dip() {
+                        Some(noise) if !watch.fresh => crossing.dip(noise, statistics),
+                        _ => None,
+                    };
+                    search.end = end / unit;
+                    let met = match dip {
+                        Some(Dip::Inside) => continue,
+                        Some(Dip::Touch) => {
+                            statistics.grazes += 1;
+                            continue;
+                        }
+                        Some(Dip::Crossed { lower, upper }) => Met::Crossing {
+                            lower: lower / unit,
+                            upper: upper / unit,
+                        },
+                        None => {
+                            let (met, touches) = search.first(watch.fresh);
+                            statistics.grazes += u64::from(touches);
+                            met
+                        }
+                    };
+                    match met {
+                        Met::Nothing => continue,
+                        Met::Crossing { lower, upper } => {
+                            crossing.lower = lower * unit;
+                            crossing.upper = (upper * unit).min(dense.tau);
+                        }
+                        Met::Undecided(_) => return Err(self.unknown(interface, dense.tau)),
+                    }
+                }
+            }
             let statistics = &mut self.statistics;
             let located = locate_in(crossing, self.locator, dense.tau, watch.fresh, statistics);
             // no step of the scheme may end on a guard, beyond which ψ may have another value

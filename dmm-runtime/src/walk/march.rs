@@ -217,6 +217,8 @@ where
             Some(course @ Course::Free { .. }) => course,
             Some(crossing) if rung <= FIRST => crossing,
             _ if rung > 0 => return None,
+            // the step cannot be made
+            _ if !is_finite(&stretch.end.state.x) => Course::Free { room: false },
             _ => self.first_on_flow(flow, march.fresh, tau),
         };
         Some((stretch, course))

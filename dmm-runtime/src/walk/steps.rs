@@ -12,7 +12,7 @@ use crate::statistics::Statistics;
 use crate::system::{Boundary, Flow, System, Vector};
 use crate::time::{Grid, Time};
 use crate::transition::Locator;
-use crate::transition::watch::{RESOLVED, UNRESOLVED};
+use crate::transition::watch::{RESOLVED, UNRESOLVED, Watch};
 use crate::walk::interfaces::{Dense, Watches, advance, is_near, readings, through_ends, watches};
 use crate::walk::{SegmentEnd, Walk};
 
@@ -187,6 +187,7 @@ where
             self.accept(flow, level, &increment, tau, end)?;
             let values = readings::<N, M, F>(flow, end.value, &self.state.x);
             advance(watches, &values, true);
+            watches.as_mut().iter_mut().for_each(Watch::restart);
             if self.tell_point().is_break() {
                 return Ok(Some(SegmentEnd::Stopped));
             }
