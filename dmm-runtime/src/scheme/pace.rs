@@ -221,13 +221,11 @@ impl<const N: usize> Pacer<N> {
         for (size, c) in self.size.iter_mut().zip(c) {
             let later = c[1..].iter().rev();
             let change = later.fold(0.0, |sum, c| (sum + c.abs()) * time);
-            let begins = if *size == 0.0 {
-                c[0].abs() + change
-            } else {
-                c[0].abs().max(PART * change)
-            };
-            *size = size.max(begins).max(f64::MIN_POSITIVE);
-            present = present.max(begins / *size);
+            // in this unit of time coefficients may be lost
+            let change = if change.is_finite() { change } else { 0.0 };
+            let now = c[0].abs().max(PART * change);
+            *size = size.max(now).max(f64::MIN_POSITIVE);
+            present = present.max(now / *size);
         }
         if present > 0.0 && present < 1.0 / FORGOTTEN {
             self.size *= present * FORGOTTEN;

@@ -87,6 +87,8 @@ enum Course {
     Crossing(Found),
     /// Whether this interface is met cannot be decided.
     Unknown(usize),
+    /// The solution leaves the range of doubles.
+    Lost,
 }
 
 /// The march through a segment.
@@ -164,6 +166,7 @@ where
                 Course::Crossing(found) => {
                     return self.cross_on_flow(flow, ladder, &mut level, found, stretch.tau);
                 }
+                Course::Lost => return Err(self.failure(StepFailure::NotFinite, stretch.tau)),
                 Course::Unknown(interface) => return Err(self.unknown(interface, stretch.tau)),
             };
             let time = match stretch.tau < remaining {
@@ -292,7 +295,11 @@ where
         for (i, &(interface, side)) in sides::<N, M, F>().iter().enumerate() {
             let series = jet.switching(interface).map(|c| side.sign() * c);
             if !series.iter().all(|c| c.is_finite()) {
-                return Course::Unknown(interface);
+                return if jet.coefficients().iter().flatten().all(|c| c.is_finite()) {
+                    Course::Unknown(interface)
+                } else {
+                    Course::Lost
+                };
             }
             let size = flow.boundary().switching_size(interface, t, &self.state.x);
             let noise = NOISE * f64::ROUNDING * size;
