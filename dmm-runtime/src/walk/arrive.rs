@@ -174,7 +174,14 @@ where
                 None => -value / rate,
             };
             if delta.abs() <= SMALL * tau {
-                return self.settle_on(flow, level, interface, (time, state), approach);
+                let place = (time, state);
+                // beyond a guard ψ may have another value
+                let corrects = self.scheme.corrects_level() && guard::<Sys, N>(interface).is_none();
+                let settled = self.settle_on(flow, level, interface, place, (approach, corrects));
+                if settled.is_none() && corrects {
+                    return self.settle_uncorrected(flow, level, interface, place);
+                }
+                return settled;
             }
             if found.sign * value > 0.0 {
                 lower = elapsed;
@@ -191,6 +198,21 @@ where
         None
     }
 
+    /// The same without a correction of the level, where ψ has no gradient: at a root that is zero
+    /// on the interface.
+    #[cold]
+    #[inline(never)]
+    fn settle_uncorrected<const M: usize, F: Flow<f64, N, M>>(
+        &self,
+        flow: &F,
+        level: &Level<N, M>,
+        interface: usize,
+        (time, state): (Time, State<N>),
+    ) -> Option<(Time, State<N>, f64)> {
+        let approach = Approach::at(flow, interface, time, &state);
+        self.settle_on(flow, level, interface, (time, state), (approach, false))
+    }
+
     /// Takes g and what is off the level of ψ off a point close to the interface: in doubles
     /// until what is left is of the size of their rounding errors, then once in pairs of doubles.
     #[inline(always)]
@@ -200,21 +222,18 @@ where
         level: &Level<N, M>,
         interface: usize,
         (mut time, mut state): (Time, State<N>),
-        mut approach: Approach<N>,
+        (mut approach, corrects): (Approach<N>, bool),
     ) -> Option<(Time, State<N>, f64)> {
         /// A displacement of this part of the state or of the step has an error of second order far below a
         /// rounding error of doubles, and after one more of pairs.
         const SMALL: f64 = 1e-11;
-        // beyond a guard ψ may have another value
-        let is_interface = guard::<Sys, N>(interface).is_none();
-        let corrects = is_interface && self.scheme.corrects_level();
         let increment = state.x - self.state.x;
         let weights = Weights::new(&state.x, &increment);
         let small = SMALL * SMALL * (dot(&state.x, &state.x) + dot(&increment, &increment));
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
-                true => finite(level.correction(flow, time, &state, &weights)),
+                true => level.correction(flow, time, &state, &weights),
                 false => Vector::zeros(),
             };
             let displacement = approach.remove(&mut time, &mut state, &off);
@@ -232,7 +251,7 @@ where
                 true => {
                     let (_, multiplier) = flow.multiplier(time.value, &state.x);
                     let residual = level.residual(flow, time, &state);
-                    finite(level.towards(&multiplier, &residual, &weights))
+                    level.towards(&multiplier, &residual, &weights)
                 }
                 false => Vector::zeros(),
             };
@@ -243,15 +262,5 @@ where
             approach = Approach::at(flow, interface, time, &state);
         }
         None
-    }
-}
-
-/// A correction, or none where ψ has no gradient: at a root that is zero on the interface.
-#[inline(always)]
-fn finite<const N: usize>(correction: Vector<f64, N>) -> Vector<f64, N> {
-    if is_finite(&correction) {
-        correction
-    } else {
-        Vector::zeros()
     }
 }

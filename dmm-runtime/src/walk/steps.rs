@@ -19,7 +19,7 @@ use crate::walk::{SegmentEnd, Walk};
 /// Steps between adaptions of the level's correction to the size of the state.
 const RESCALING: u64 = 256;
 /// Steps between looks at whether they resolve the solution.
-const LOOKS: u64 = 32;
+const LOOKS: u64 = 64;
 /// The coefficients of g along the cubic through the ends of a step fall off like powers of this.
 const CUBIC_DECAY: f64 = 0.5;
 
