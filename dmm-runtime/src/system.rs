@@ -144,9 +144,9 @@ impl<const N: usize> FlowVisitor<N> for Conserved<'_, N> {
 ///
 /// assert_eq!(Ramp::GUARDS[0].condition, "x > 0");
 /// let ramp = Ramp::default();
-/// let integrator = Integrator::new(&ramp, Symmetric::step_size(0.01));
-/// assert!(integrator.initial(0.0, [1.0, 0.5]).run_until(0.5).is_ok());
-/// let stopped = integrator.initial(0.0, [-1.0, 0.5]).run_until(0.5).unwrap_err();
+/// let from = |x| Integrator::new(&ramp, Symmetric::step_size(0.01)).initial(0.0, [x, 0.5]);
+/// assert!(from(1.0).run_until(0.5).is_ok());
+/// let stopped = from(-1.0).run_until(0.5).unwrap_err();
 /// assert!(matches!(stopped.error(), Error::ConditionFails { quantity: "e", .. }));
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -124,11 +124,13 @@ impl<Sch: OneStep, F, const N: usize> Crossing<'_, Sch, F, N> {
         const MOST_HALVINGS: u32 = 60;
         let narrow = (self.upper - self.lower).max(NARROW * tau);
         let mut width = narrow;
+        // the dense output ends where the map does
+        let ends = self.upper >= tau;
         while self.upper < tau && value_at(self, self.upper, statistics)?.0 > 0.0 {
             self.upper = (self.upper + width).min(tau);
             width *= 4.0;
         }
-        if self.upper >= tau && value_at(self, tau, statistics)?.0 > 0.0 {
+        if !ends && self.upper >= tau && value_at(self, tau, statistics)?.0 > 0.0 {
             return Some(false);
         }
         width = narrow;
