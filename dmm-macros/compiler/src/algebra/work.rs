@@ -5,8 +5,8 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 /// Terms formed over one DAG and its copies, that is while one declaration is compiled.
-/// Unoptimised, they take some 0.5 s; the largest of the problems, with 64 states, needs 40 000.
-const MOST: usize = 200_000;
+/// Unoptimised, they take some second; the largest of the problems, with 64 states, needs 40 000.
+const MOST: usize = 400_000;
 
 /// A normal form may always form as many terms as this.
 const LEAST: usize = 4_000;

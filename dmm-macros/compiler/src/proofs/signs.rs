@@ -19,7 +19,7 @@ use super::conditions::domain;
 use super::place::decide;
 use super::{Place, Variables};
 use crate::algebra::evaluate::Interval;
-use crate::algebra::{Dag, Id, Math, Name, Verdict, evaluate::enclose, normalise};
+use crate::algebra::{Dag, Function, Id, Math, Name, Verdict, evaluate::enclose, normalise};
 use crate::model::positive;
 
 /// Bases of which every combination of signs is tried.
@@ -103,6 +103,15 @@ fn widens(
     let narrow = domain(dag, roots, &place.sides, without);
     let wide = domain(dag, roots, &place.sides, with);
     wide.contradiction.is_none() && narrow.conditions != wide.conditions
+}
+
+/// Whether `roots` have values nowhere where `sides` are positive.
+fn is_empty(dag: &mut Dag, roots: &[Id], sides: &[Id]) -> bool {
+    let logarithms = sides.iter().map(|&side| dag.call(Function::Ln, side));
+    let logarithms: Vec<Id> = logarithms.collect();
+    let roots: Vec<Id> = roots.iter().copied().chain(logarithms).collect();
+    let domain = domain(dag, &roots, &[], &BTreeSet::new());
+    domain.contradiction.is_some()
 }
 
 /// The parities of exponents: c + Σ mᵢ kᵢ with integers c and mᵢ, and exponents kᵢ whose parities
@@ -225,7 +234,8 @@ impl Problem<'_> {
             };
             sides.push(dag.neg(base));
         }
-        decide(dag, self.variables, residual, &roots, &sides) == Verdict::Proved
+        is_empty(dag, &roots, &sides)
+            || decide(dag, self.variables, residual, &roots, &sides) == Verdict::Proved
     }
 
     /// `root` with (−1)^k (−u)^k for u^k of the bases `negative`.

@@ -14,9 +14,9 @@ use super::sums::normal_form_by_parts;
 use super::write_back::Writer;
 
 /// The work spent on the normal form of an expression that is known not to be zero.
-const RESIDUAL_WORK: usize = 100_000;
+const RESIDUAL_WORK: usize = 250_000;
 /// The work spent on a form with long sums as symbols, which comes last.
-const FOLDED_WORK: usize = 40_000;
+const FOLDED_WORK: usize = 80_000;
 
 /// The answer to "is this expression identically zero?".
 #[derive(Clone, Debug, PartialEq)]
