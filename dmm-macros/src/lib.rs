@@ -196,7 +196,7 @@ use proc_macro::TokenStream;
 /// there. A region that implies a condition makes the check superfluous:
 ///
 /// ```
-/// use dmm_runtime::{Error, Integrator, System, Taylor, pws};
+/// use dmm_runtime::{ErrorKind, Integrator, System, Taylor, pws};
 ///
 /// pws! {
 ///     /// A rotation with its angle.
@@ -226,12 +226,12 @@ use proc_macro::TokenStream;
 ///     .initial(0.0, [1.0, 0.5])
 ///     .run_until(3.0)
 ///     .unwrap_err();
-/// let Error::ConditionFails { condition, quantity, .. } = stopped.error() else {
+/// let ErrorKind::ConditionFails { condition, quantity } = &stopped.error().kind else {
 ///     panic!("{}", stopped.error());
 /// };
 /// assert_eq!((*condition, *quantity), ("x ≠ 0", "angle"));
-/// assert_eq!(Rotation::GUARDS.len(), 1);
-/// assert!(Half::GUARDS.is_empty());
+/// assert_eq!(Rotation::CONDITIONS.len(), 1);
+/// assert!(Half::CONDITIONS.is_empty());
 /// ```
 ///
 /// # What is emitted

@@ -1,11 +1,59 @@
-//! What can stop an integration, each with the place where it did.
+//! What can stop an integration: a kind, and the place where it happened.
 
-use thiserror::Error;
+use std::fmt;
+
+use thiserror::Error as ThisError;
 
 /// Why an integration stopped before its end time.
-#[derive(Clone, PartialEq, Debug, Error)]
+///
+/// ```
+/// use dmm_runtime::{Best, ErrorKind, Integrator, pws};
+///
+/// pws! {
+///     /// A block that a wall stops.
+///     pub system Block {
+///         state x;
+///         param forth = 1, back = -1;
+///         interface wall = x;
+///         region left where wall < 0 { der(x) = forth; }
+///         region right where wall > 0 { der(x) = back; }
+///     }
+/// }
+///
+/// let interrupted = Integrator::new(&Block::default(), Best::tolerance(1e-12))
+///     .initial(0.0, [-1.0])
+///     .run_until(3.0)
+///     .unwrap_err();
+/// let error = interrupted.error();
+/// assert!(matches!(error.kind, ErrorKind::Sliding { interface: "wall", .. }));
+/// assert_eq!(error.place().map(|place| (place.t, place.region)), Some((1.0, "left")));
+/// // what was computed until there is not lost
+/// assert_eq!(interrupted.solution().last().map(|point| point.t), Some(1.0));
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Error {
+    /// What happened.
+    pub kind: ErrorKind,
+    place: Option<Box<Place>>,
+}
+
+/// Where an integration stopped: at a point, or in the step that starts there.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Place {
+    /// Time.
+    pub t: f64,
+    /// State.
+    pub x: Vec<f64>,
+    /// The region; empty where there is none.
+    pub region: &'static str,
+    /// The size of the step that could not be made.
+    pub step_size: Option<f64>,
+}
+
+/// What stopped an integration.
+#[derive(Clone, PartialEq, Debug, ThisError)]
 #[non_exhaustive]
-pub enum Error {
+pub enum ErrorKind {
     /// The input makes no sense; nothing was integrated.
     #[error("{what}: {value} ({requirement})")]
     InvalidInput {
@@ -18,19 +66,10 @@ pub enum Error {
     },
     /// The implicit equation of a step could not be solved.
     #[error(
-        "no solution was found of the step from t = {t}, x = {x:?} in region `{region}` with step size \
-         {step_size:e} (residual {residual:e} after {iterations} Newton iterations): try a smaller \
-         step size"
+        "no solution of the step was found (residual {residual:e} after {iterations} Newton \
+         iterations): try a smaller step size"
     )]
     NewtonFailed {
-        /// Start of the step.
-        t: f64,
-        /// State there.
-        x: Vec<f64>,
-        /// Step size.
-        step_size: f64,
-        /// Region.
-        region: &'static str,
         /// Largest component of the residual.
         residual: f64,
         /// Newton iterations spent.
@@ -38,50 +77,30 @@ pub enum Error {
     },
     /// A formula has no finite value: a logarithm of a negative number, a division by zero.
     #[error(
-        "region `{region}`'s formulas have no finite value in the step from t = {t}, x = {x:?} with \
-         step size {step_size:e}: the solution leaves their domain, or the step is too large"
+        "the formulas have no finite value in the step: the solution leaves their domain, or the \
+         step is too large"
     )]
-    LeftDomain {
-        /// Start of the step.
-        t: f64,
-        /// State there.
-        x: Vec<f64>,
-        /// Step size.
-        step_size: f64,
-        /// Region.
-        region: &'static str,
-    },
+    LeftDomain,
     /// The solution leaves the condition under which a quantity was proved to be conserved; see
-    /// [`Guard`](crate::Guard). Where it may go on without the quantity, or with another one,
-    /// the declaration has an interface there and a region beyond.
+    /// [`Condition`](crate::Condition). Where it may go on without the quantity, or with another
+    /// one, the declaration has an interface there and a region beyond.
     #[error(
-        "at t = {t}, x = {x:?} the condition {condition} fails, under which {quantity} was proved to \
-         be conserved in region `{region}`: to go on, declare an interface there, and beyond it a \
-         region with what is conserved there"
+        "the condition {condition} fails, under which {quantity} was proved to be conserved: to go \
+         on, declare an interface there, and beyond it a region with what is conserved there"
     )]
     ConditionFails {
-        /// Time.
-        t: f64,
-        /// State.
-        x: Vec<f64>,
         /// The condition.
         condition: &'static str,
         /// The name of the quantity, or the names of several.
         quantity: &'static str,
-        /// Region.
-        region: &'static str,
     },
     /// Both vector fields point at the interface, so that the solution would slide on it.
     #[error(
-        "at t = {t}, x = {x:?} the vector fields of both sides point at interface `{interface}` \
-         (dg/dt = {rate_from:e} in region `{from}`, {rate_to:e} in region `{to}`): the solution \
-         slides along it, which is not supported"
+        "the vector fields of both sides point at interface `{interface}` (dg/dt = {rate_from:e} \
+         in region `{from}`, {rate_to:e} in region `{to}`): the solution slides along it, which is \
+         not supported"
     )]
     Sliding {
-        /// Transition time.
-        t: f64,
-        /// Transition point.
-        x: Vec<f64>,
         /// Interface.
         interface: &'static str,
         /// The region that the solution came from.
@@ -95,15 +114,10 @@ pub enum Error {
     },
     /// On an interface with a vector field tangential to it: what comes next is undecided.
     #[error(
-        "at t = {t}, x = {x:?} a vector field is tangential to interface `{interface}` \
-         (dg/dt = {rate_from:e} in region `{from}`, {rate_to:e} in region `{to}`): the next \
-         region is not determined"
+        "a vector field is tangential to interface `{interface}` (dg/dt = {rate_from:e} in region \
+         `{from}`, {rate_to:e} in region `{to}`): the next region is not determined"
     )]
     Tangential {
-        /// Time.
-        t: f64,
-        /// State.
-        x: Vec<f64>,
         /// Interface.
         interface: &'static str,
         /// One region.
@@ -117,66 +131,40 @@ pub enum Error {
     },
     /// A start on an interface from which both vector fields lead away.
     #[error(
-        "the start t = {t}, x = {x:?} is on interface `{interface}` and the vector fields of both \
-         sides lead away from it: name the region to start in"
+        "the start is on interface `{interface}` and the vector fields of both sides lead away \
+         from it: name the region to start in"
     )]
     AmbiguousStart {
-        /// Time.
-        t: f64,
-        /// State.
-        x: Vec<f64>,
         /// Interface.
         interface: &'static str,
     },
     /// No region has the signs of the switching functions there.
-    #[error("t = {t}, x = {x:?} lies in no region")]
-    NoRegion {
-        /// Time.
-        t: f64,
-        /// State.
-        x: Vec<f64>,
-    },
+    #[error("the point lies in no region")]
+    NoRegion,
     /// A crossing is known to be in the step but its point could not be found.
     #[error(
-        "interface `{interface}` is crossed in the step from t = {t}, x = {x:?} with step size \
-         {step_size:e}, but no time could be found at which its switching function is zero"
+        "interface `{interface}` is crossed in the step, but no time could be found at which its \
+         switching function is zero"
     )]
     LocationFailed {
-        /// Start of the step.
-        t: f64,
-        /// State there.
-        x: Vec<f64>,
-        /// Step size.
-        step_size: f64,
         /// Interface.
         interface: &'static str,
     },
     /// Whether an interface is met in a step cannot be decided.
     #[error(
-        "whether interface `{interface}` is met in the step from t = {t}, x = {x:?} with step size \
-         {step_size:e} cannot be decided: its switching function has no finite value there, or \
-         changes its sign too often"
+        "whether interface `{interface}` is met in the step cannot be decided: its switching \
+         function has no finite value there, or changes its sign too often"
     )]
     Undecided {
-        /// Start of the step.
-        t: f64,
-        /// State there.
-        x: Vec<f64>,
-        /// Step size.
-        step_size: f64,
         /// Interface.
         interface: &'static str,
     },
     /// Transitions accumulate.
     #[error(
-        "{transitions} transitions within a time of {within:e} until t = {t}, x = {x:?}, the last at \
-         interface `{interface}`: they accumulate (Zeno), and what comes after is not determined"
+        "{transitions} transitions within a time of {within:e}, the last at interface \
+         `{interface}`: they accumulate (Zeno), and what comes after is not determined"
     )]
     Zeno {
-        /// Time of the last transition.
-        t: f64,
-        /// Point of the last transition.
-        x: Vec<f64>,
         /// Interface.
         interface: &'static str,
         /// How many there were …
@@ -196,51 +184,70 @@ pub enum Error {
     },
 }
 
-/// Why a scheme could not make a step.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum StepFailure {
-    /// Newton's method did not converge.
-    NoConvergence {
-        /// Largest component of the residual.
-        residual: f64,
-        /// Iterations spent.
-        iterations: u64,
-    },
-    /// A formula had no finite value.
-    NotFinite,
+impl Error {
+    /// Where it happened; nothing if nothing was integrated.
+    pub fn place(&self) -> Option<&Place> {
+        self.place.as_deref()
+    }
 }
 
-impl StepFailure {
-    /// The error of a step that starts at t, x.
-    pub(crate) fn at<const N: usize>(
-        self,
-        t: f64,
-        x: &crate::system::Vector<f64, N>,
-        step_size: f64,
-        region: &'static str,
-    ) -> Error {
-        let x = x.iter().copied().collect();
-        match self {
-            Self::NoConvergence {
-                residual,
-                iterations,
-            } => Error::NewtonFailed {
-                t,
-                x,
-                step_size,
-                region,
-                residual,
-                iterations,
-            },
-            Self::NotFinite => Error::LeftDomain {
-                t,
-                x,
-                step_size,
-                region,
-            },
+impl From<ErrorKind> for Error {
+    fn from(kind: ErrorKind) -> Self {
+        Self { kind, place: None }
+    }
+}
+
+impl ErrorKind {
+    /// The error at a point of a region.
+    #[cold]
+    pub(crate) fn at(self, t: f64, x: &[f64], region: &'static str) -> Error {
+        let place = Place {
+            t,
+            x: x.to_vec(),
+            region,
+            step_size: None,
+        };
+        Error {
+            kind: self,
+            place: Some(Box::new(place)),
         }
     }
 }
+
+impl Error {
+    /// The same in a step that starts there.
+    #[cold]
+    pub(crate) fn in_step(mut self, step_size: f64) -> Self {
+        if let Some(place) = &mut self.place {
+            place.step_size = Some(step_size);
+        }
+        self
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "t = {}, x = {:?}", self.t, self.x)?;
+        if !self.region.is_empty() {
+            write!(f, " in region `{}`", self.region)?;
+        }
+        match self.step_size {
+            Some(step_size) => write!(f, " with step size {step_size:e}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.place {
+            Some(place) => write!(f, "at {place}: {}", self.kind),
+            None => self.kind.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
 
 /// Bad input.
 pub(crate) fn invalid(
@@ -248,17 +255,19 @@ pub(crate) fn invalid(
     value: String,
     requirement: &'static str,
 ) -> Result<(), Error> {
-    Err(Error::InvalidInput {
+    Err(ErrorKind::InvalidInput {
         what,
         value,
         requirement,
-    })
+    }
+    .into())
 }
 
 /// A number as people write it: small and large ones with an exponent.
 pub(crate) fn number(value: f64) -> String {
-    match value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
-        true => format!("{value:e}"),
-        false => value.to_string(),
+    if value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
     }
 }

@@ -14,13 +14,13 @@
 
 use std::ops::Range;
 
-use crate::linear::dot;
-use crate::minimal_norm::MinimalNorm;
-use crate::scalar::Scalar;
+use crate::arithmetic::MinimalNorm;
+use crate::arithmetic::Scalar;
+use crate::arithmetic::State;
+use crate::arithmetic::Time;
+use crate::arithmetic::linear::dot;
+use crate::contract::{Dynamics, Guards, Matrix, Vector};
 use crate::special::double::Double;
-use crate::state::State;
-use crate::system::{Boundary, Flow, Matrix, Vector};
-use crate::time::Time;
 
 /// The level of the conserved quantities in a segment.
 #[derive(Clone, Copy, Debug)]
@@ -103,32 +103,53 @@ impl<const N: usize, const M: usize> Level<N, M> {
     /// error of ψ.
     const NONE: f64 = 1e-6;
 
-    /// The level at the entry into a region.
-    pub(crate) fn enter<F: Flow<f64, N, M>>(flow: &F, time: Time, state: &State<N>) -> Self {
-        let psi = in_pairs(flow, time, state);
+    /// The level at the entry into a mode, or the one that was `kept` of a segment that goes on.
+    #[inline]
+    pub(crate) fn enter<F: Dynamics<f64, N, M>>(
+        dynamics: &F,
+        time: Time,
+        state: &State<N>,
+        kept: Option<&[[f64; 2]]>,
+    ) -> Self {
+        let psi = match kept {
+            Some(kept) => from_kept(kept),
+            None => in_pairs(dynamics, time, state),
+        };
         let mut level = Self {
             reference: psi.map(|psi| psi.high),
             remainder: psi.map(|psi| psi.low),
             scale: Vector::zeros(),
         };
-        level.rescale(flow, time.value, state);
+        level.rescale(dynamics, time.value, state);
         level
+    }
+
+    /// What goes on with the next segment.
+    #[cold]
+    pub(crate) fn kept(&self) -> Vec<[f64; 2]> {
+        let pairs = self.reference.iter().zip(&self.remainder);
+        pairs.map(|(&high, &low)| [high, low]).collect()
     }
 
     /// Takes the scale of slopes from the present state, which may have grown or shrunk since
     /// the entry.
-    pub(crate) fn rescale<F: Flow<f64, N, M>>(&mut self, flow: &F, t: f64, state: &State<N>) {
+    pub(crate) fn rescale<F: Dynamics<f64, N, M>>(
+        &mut self,
+        dynamics: &F,
+        t: f64,
+        state: &State<N>,
+    ) {
         let squares = state.x.iter().map(|x| x * x);
         let square = squares.fold(f64::MIN_POSITIVE, f64::max);
-        let size = flow.conserved_size(t, &state.x);
+        let size = dynamics.conserved_size(t, &state.x);
         self.scale = size.map(|size| size * (size / square) + f64::MIN_POSITIVE);
     }
 
     /// The displacement δx towards the level.
     #[inline(always)]
-    pub(crate) fn correction<F: Flow<f64, N, M>>(
+    pub(crate) fn correction<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         state: &State<N>,
         weights: &Weights<N>,
@@ -136,53 +157,53 @@ impl<const N: usize, const M: usize> Level<N, M> {
         if M == 0 {
             return Vector::zeros();
         }
-        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let little = self.scale * (Self::LITTLE * Self::LITTLE * weights.largest);
         if M == 1 {
             let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
             let weighted = weights.times(&row);
             let square = dot(&row, &weighted);
             let inverse = 1.0 / square;
-            let drift = dot(&row, &remainder(flow, time, state)) - self.remainder[0];
+            let drift = dot(&row, &remainder(dynamics, time, state)) - self.remainder[0];
             if square > little[0] {
                 return weighted * -(((psi[0] - self.reference[0]) + drift) * inverse);
             }
-            return self.gentle(flow, time, state, &multiplier, weights);
+            return self.gentle(dynamics, time, state, &multiplier, weights);
         }
         let (scaled, sizes) = weights.scaled(&multiplier);
         let projection = MinimalNorm::new(&scaled, &scaled);
         if projection.is_steep(&little) {
-            let drift = multiplier * remainder(flow, time, state) - self.remainder;
+            let drift = multiplier * remainder(dynamics, time, state) - self.remainder;
             let residual = (psi - self.reference) + drift;
             return -projection.smallest(&residual).component_mul(&sizes);
         }
-        self.gentle(flow, time, state, &multiplier, weights)
+        self.gentle(dynamics, time, state, &multiplier, weights)
     }
 
     /// The displacement where ψ has little slope, with the residual in pairs of doubles.
     #[cold]
     #[inline(never)]
-    fn gentle<F: Flow<f64, N, M>>(
+    fn gentle<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         state: &State<N>,
         multiplier: &Matrix<f64, M, N>,
         weights: &Weights<N>,
     ) -> Vector<f64, N> {
-        let residual = self.residual(flow, time, state);
+        let residual = self.residual(dynamics, time, state);
         self.towards(multiplier, &residual, weights)
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.
     #[inline(always)]
-    pub(crate) fn residual<F: Flow<f64, N, M>>(
+    pub(crate) fn residual<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         state: &State<N>,
     ) -> Vector<f64, M> {
-        let psi = in_pairs(flow, time, state);
+        let psi = in_pairs(dynamics, time, state);
         Vector::from_fn(|i, _| (psi[i] - Double::new(self.reference[i], self.remainder[i])).high)
     }
 
@@ -213,16 +234,16 @@ impl<const N: usize, const M: usize> Level<N, M> {
 
     /// Whether ψ is further from its level than the rounding errors of evaluating it: a state that
     /// is better than them is not to be moved by them.
-    pub(crate) fn strays<F: Flow<f64, N, M>>(
+    pub(crate) fn strays<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         state: &State<N>,
     ) -> bool {
-        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
-        let drift = multiplier * remainder(flow, time, state) - self.remainder;
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
+        let drift = multiplier * remainder(dynamics, time, state) - self.remainder;
         let residual = (psi - self.reference) + drift;
-        let size = flow.conserved_size(time.value, &state.x);
+        let size = dynamics.conserved_size(time.value, &state.x);
         let mut errors = residual.iter().zip(&size);
         errors.any(|(residual, size)| residual.abs() > Self::ROUNDING * size)
     }
@@ -230,9 +251,9 @@ impl<const N: usize, const M: usize> Level<N, M> {
     /// The state that a step over `displacement` has come to, put back on the level if it
     /// `corrects`.
     #[inline(always)]
-    pub(crate) fn reached<F: Flow<f64, N, M>>(
+    pub(crate) fn reached<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         state: State<N>,
         displacement: &Vector<f64, N>,
@@ -243,24 +264,24 @@ impl<const N: usize, const M: usize> Level<N, M> {
         }
         let weights = Weights::new(&state.x, displacement);
         if M == 1
-            && let Some(reached) = self.reached_at_once(flow, time, &state, &weights)
+            && let Some(reached) = self.reached_at_once(dynamics, time, &state, &weights)
         {
             return reached;
         }
-        self.reached_by_steps(flow, time, state, &weights)
+        self.reached_by_steps(dynamics, time, state, &weights)
     }
 
     /// The same for one quantity that has some slope. What a large correction leaves, the square
     /// of it, is taken off with the same slope.
     #[inline(always)]
-    fn reached_at_once<F: Flow<f64, N, M>>(
+    fn reached_at_once<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         state: &State<N>,
         weights: &Weights<N>,
     ) -> Option<State<N>> {
-        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
         let weighted = weights.times(&row);
         let square = dot(&row, &weighted);
@@ -269,7 +290,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         }
         let gain = weighted * (1.0 / square);
         let residual = |psi: Vector<f64, M>, state: &State<N>| {
-            let drift = dot(&row, &remainder(flow, time, state)) - self.remainder[0];
+            let drift = dot(&row, &remainder(dynamics, time, state)) - self.remainder[0];
             (psi[0] - self.reference[0]) + drift
         };
         let without = |mut state: State<N>, residual: f64| {
@@ -280,11 +301,11 @@ impl<const N: usize, const M: usize> Level<N, M> {
         let mut reached = without(*state, first);
         let coarse = square * (weights.unit * (COARSE * COARSE));
         if first * first > coarse {
-            let second = residual(flow.conserved(time.value, &reached.x), &reached);
+            let second = residual(dynamics.conserved(time.value, &reached.x), &reached);
             reached = without(reached, second);
             // the same slope again leaves the product of the two
             if (first * second).abs() > coarse {
-                reached = self.reached_by_steps(flow, time, reached, weights);
+                reached = self.reached_by_steps(dynamics, time, reached, weights);
             }
         }
         Some(reached)
@@ -293,9 +314,9 @@ impl<const N: usize, const M: usize> Level<N, M> {
     /// The same by one correction after the other, while the square of the last one is no rounding
     /// error.
     #[inline(never)]
-    fn reached_by_steps<F: Flow<f64, N, M>>(
+    fn reached_by_steps<F: Dynamics<f64, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         time: Time,
         mut state: State<N>,
         weights: &Weights<N>,
@@ -303,7 +324,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         /// The error falls to its square each time, and then to the part that damping leaves.
         const MOST: u32 = 9;
         for _ in 0..MOST {
-            let displacement = self.correction(flow, time, &state, weights);
+            let displacement = self.correction(dynamics, time, &state, weights);
             state.remainder += displacement;
             state = state.normalised();
             if !weights.are_left_by(&displacement) {
@@ -326,33 +347,42 @@ const COARSE: f64 = 1e-9;
 /// there ψ is evaluated in doubles, and the remainders enter by its slope.
 const MOST_IN_PAIRS: usize = 12;
 
+/// ψ_ref of a segment that was stopped; NaN where there is none.
+#[cold]
+fn from_kept<const M: usize>(kept: &[[f64; 2]]) -> Vector<Double, M> {
+    Vector::from_fn(|i, _| {
+        let [high, low] = kept.get(i).copied().unwrap_or([f64::NAN; 2]);
+        Double::new(high, low)
+    })
+}
+
 /// ψ at the state and time with their remainders.
 #[inline]
-fn in_pairs<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
+fn in_pairs<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+    dynamics: &F,
     time: Time,
     state: &State<N>,
 ) -> Vector<Double, M> {
     if const { N > MOST_IN_PAIRS } {
-        let (psi, multiplier) = flow.multiplier(time.value, &state.x);
-        let drift = multiplier * remainder(flow, time, state);
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
+        let drift = multiplier * remainder(dynamics, time, state);
         return Vector::from_fn(|i, _| Double::sum(psi[i], drift[i]));
     }
     let (t, x) = pairs(time, state);
-    flow.over::<Double>().conserved(t, &x)
+    dynamics.over::<Double>().conserved(t, &x)
 }
 
 /// g at the state and time with their remainders, rounded.
 #[inline(always)]
-pub(crate) fn switching_in_pairs<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
+pub(crate) fn switching_in_pairs<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+    dynamics: &F,
     interface: usize,
     time: Time,
     state: &State<N>,
 ) -> f64 {
     let (t, x) = pairs(time, state);
-    let boundary = flow.boundary().over::<Double>();
-    boundary.switching_function(interface, t, &x).high
+    let guards = dynamics.guards().over::<Double>();
+    guards.switching_function(interface, t, &x).high
 }
 
 /// A time and a state as pairs of doubles.
@@ -367,13 +397,13 @@ fn pairs<const N: usize>(time: Time, state: &State<N>) -> (Double, Vector<Double
 /// The state's remainder, as far as ψ is concerned with that of the time: ψ(t + δ, x) is
 /// ψ(t, x − fδ), because ∂ₜψ = −∇ψ·f.
 #[inline(always)]
-fn remainder<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    flow: &F,
+fn remainder<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+    dynamics: &F,
     time: Time,
     state: &State<N>,
 ) -> Vector<f64, N> {
     if F::AUTONOMOUS || time.remainder == 0.0 {
         return state.remainder;
     }
-    state.remainder - flow.vector_field(time.value, &state.x) * time.remainder
+    state.remainder - dynamics.vector_field(time.value, &state.x) * time.remainder
 }

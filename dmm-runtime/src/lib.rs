@@ -8,23 +8,37 @@
 //! | to | use |
 //! |---|---|
 //! | declare a system | [`pws!`] |
-//! | integrate it | [`Integrator`] with a [`Scheme`]: [`Best`], unless another one is meant |
-//! | choose a scheme by name | [`Taylor`], [`Symmetric`], [`Composed`] |
+//! | integrate it | [`Integrator`] with a [`Method`]: [`Best`], unless another one is meant |
+//! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`] |
+//! | go step by step, stop, change, go on | [`Stepper`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | keep some of its points only | [`Recording`] |
 //! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
 //! | integrate many initial states and parameters | [`Ensemble`] |
 //! | evaluate ψ at a point | [`System::conserved`] |
-//! | replace the search for crossings | [`Locator`] |
-//! | write a scheme | [`OneStep`], [`Flow`] |
+//! | replace the search for crossings of one-step methods | [`Locator`] |
+//! | write a one-step method | [`OneStep`] in [`Uniform`] or [`Adaptive`] steps, [`Dynamics`] |
+//!
+//! # Words
+//!
+//! | word | meaning |
+//! |---|---|
+//! | region, interface | where one vector field f holds; the zero set of a switching function g |
+//! | mode | what a run is in: a region. It is explicit state, never read off the sign of g |
+//! | dynamics | what is derived for a mode: f, ψ, Λ, f^τ with its Jacobian, recurrences ([`Dynamics`]) |
+//! | guard | a function whose zero ends a mode: g of an interface, or the [`Condition`] of a proof ([`Guards`]) |
+//! | transition | crossing an interface, at (t̂*, x̂*) |
+//! | method | what moves the state through one mode ([`Method`]) |
+//! | driver | what goes from mode to mode ([`Integrator`], [`Stepper`]) |
+//! | level | ψ_ref, the values of ψ at the entry into a mode |
 //!
 //! A transition is what other libraries call an event.
 //!
-//! # The schemes
+//! # The methods
 //!
 //! [`Best`] takes the best that each region allows: its exact flow, where f and the switching
 //! functions are affine with constant coefficients, and [`Taylor`]'s method to a tolerance
-//! elsewhere. The other schemes are there by name.
+//! elsewhere. The other methods are there by name.
 //!
 //! One step of [`Symmetric`], of order 2, solves x₁ = x₀ + τ f^τ(t₀, x₀, t₁, x₁) with a discrete
 //! vector field f^τ for which Λ^τ f^τ + ∂ₜ^τψ = 0, where the discrete multiplier telescopes,
@@ -42,7 +56,7 @@
 //! has a dense output, a polynomial x(t). On it g is enclosed, by interval arithmetic on what
 //! [`pws!`] emits, and the step is looked at in ever shorter parts until each of them has no zero
 //! of g, or one. Where that is not possible, because g has no finite value or changes its sign
-//! without end, the run ends with [`Error::Undecided`]. What comes to zero within rounding errors
+//! without end, the run ends with [`ErrorKind::Undecided`]. What comes to zero within rounding errors
 //! and returns is a touch, which is no transition; [`Statistics::grazes`] counts them.
 //!
 //! | g | how it is told |
@@ -71,52 +85,34 @@
 //! terms.
 #![deny(missing_docs)]
 
-mod end;
+mod arithmetic;
+mod contract;
+mod driver;
 mod ensemble;
 mod error;
 mod events;
-mod exact;
-mod integrator;
-mod lanes;
+mod expansion;
 mod level;
-mod linear;
-mod minimal_norm;
-mod observer;
-mod recording;
-mod scalar;
-mod scheme;
+mod method;
+mod output;
 pub mod series;
-mod transition;
-
-mod solution;
 pub mod special;
-
-mod sparse;
-mod state;
-mod statistics;
 #[doc(hidden)]
 pub mod support;
-mod system;
-mod time;
-mod walk;
 
+pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
+pub use contract::{
+    Condition, Dynamics, DynamicsVisitor, Guards, NoGuards, Side, Solvability, System,
+};
 pub use dmm_macros::pws;
-pub use end::{End, Halted};
+pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};
 pub use ensemble::{Ensemble, Member, Outcome};
-pub use error::{Error, StepFailure};
-pub use integrator::{InitialValueProblem, Integrator};
-pub use minimal_norm::MinimalNorm;
-pub use observer::{Observer, Point, Transition};
-pub use recording::Recording;
-pub use scalar::Scalar;
-pub use scheme::{
-    Adaptive, Best, Composed, Composition, Correction, OneStep, Scheme, Step, Symmetric, Taylor,
+pub use error::{Error, ErrorKind, Place};
+pub use method::best::Best;
+pub use method::one_step::{
+    Adaptive, Composed, Composition, Correction, Crossing, Located, Locator, NewtonLocator,
+    OneStep, Step, Symmetric, Uniform,
 };
-pub use solution::{Interrupted, Solution};
-pub use state::State;
-pub use statistics::Statistics;
-pub use system::{
-    Boundary, Flow, FlowVisitor, Guard, Matrix, Side, Solvability, System, Unbounded, Vector,
-};
-pub use time::Time;
-pub use transition::{Crossing, Located, Locator, NewtonLocator};
+pub use method::taylor::Taylor;
+pub use method::{Method, Statistics, StepFailure};
+pub use output::{End, Halted, Interrupted, Observer, Point, Solution, Transition};

@@ -18,17 +18,17 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 use clap::Parser;
-use dmm_problems::method::{Control, Method};
+use dmm_problems::method::{Control, MethodName};
 use dmm_problems::problem::{Problem, Run};
 use dmm_problems::registry;
 use serde::{Deserialize, Serialize};
 
 /// What is measured: a scheme and, if it takes one, its tolerance.
-const MEASURED: [(Method, Option<f64>); 4] = [
-    (Method::Symmetric, None),
-    (Method::Taylor, Some(1e-6)),
-    (Method::Taylor, Some(1e-12)),
-    (Method::Best, Some(1e-12)),
+const MEASURED: [(MethodName, Option<f64>); 4] = [
+    (MethodName::Symmetric, None),
+    (MethodName::Taylor, Some(1e-6)),
+    (MethodName::Taylor, Some(1e-12)),
+    (MethodName::Best, Some(1e-12)),
 ];
 /// More instructions than recorded by this part are a slowdown.
 const ALLOWED: f64 = 0.03;
@@ -97,7 +97,11 @@ fn run_until(place: &str, problems: &[String]) -> Outcome<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn run_of(problem: &dyn Problem, (method, tolerance): (Method, Option<f64>), t_end: f64) -> Run {
+fn run_of(
+    problem: &dyn Problem,
+    (method, tolerance): (MethodName, Option<f64>),
+    t_end: f64,
+) -> Run {
     let default = problem.default_run();
     Run {
         method,
@@ -127,9 +131,10 @@ fn measure(arguments: &Arguments) -> Outcome<ExitCode> {
             .map(|name| registry::find(name))
             .collect::<Result<_, _>>()?,
     };
-    let recorded = match arguments.task.record {
-        true => Vec::new(),
-        false => read_record(&compiler)?,
+    let recorded = if arguments.task.record {
+        Vec::new()
+    } else {
+        read_record(&compiler)?
     };
     println!(
         "{:<24} {:<10} {:>9} {:>10} {:>10} {:>7}",
@@ -187,8 +192,8 @@ fn print(row: &Row, recorded: &[Row]) -> bool {
 /// Counts the instructions of a step.
 fn row(problem: &dyn Problem, place: usize) -> Outcome<Row> {
     let (method, tolerance) = MEASURED[place];
-    let card = problem.card();
-    let whole = run_of(problem, (method, tolerance), card.t_end);
+    let description = problem.description();
+    let whole = run_of(problem, (method, tolerance), description.t_end);
     let all = problem.integrate_silently(&whole)?.statistics.steps as f64;
     let wanted = match problem.states().len() {
         ..=16 => STEPS,
@@ -196,16 +201,16 @@ fn row(problem: &dyn Problem, place: usize) -> Outcome<Row> {
     };
     let shrink = (all / wanted[1]).min(1.0);
     let [first, second] = wanted.map(|steps| {
-        let t_end = card.t_end * shrink * steps / all;
+        let t_end = description.t_end * shrink * steps / all;
         let run = run_of(problem, (method, tolerance), t_end);
         let steps = problem.integrate_silently(&run)?.statistics.steps;
-        let instructions = instructions(card.name, place, t_end)?;
+        let instructions = instructions(description.name, place, t_end)?;
         Outcome::Ok((steps as f64, instructions))
     });
     let ((steps, instructions), (more_steps, more_instructions)) = (first?, second?);
     let a_step = (more_instructions - instructions) / (more_steps - steps);
     Ok(Row {
-        problem: card.name.to_owned(),
+        problem: description.name.to_owned(),
         scheme: method.name().to_owned(),
         tolerance: match method.control() {
             Control::Tolerance => tolerance,

@@ -23,8 +23,8 @@ use dmm_compiler::algebra::{Id, to_text};
 use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::model::{Model, Sign};
 use dmm_compiler::{check, syntax};
-use dmm_problems::method::{Control, Method};
-use dmm_problems::problem::{Crew, Problem, Run, Start};
+use dmm_problems::method::{Control, MethodName};
+use dmm_problems::problem::{Parallelism, Problem, Run, Start};
 use dmm_problems::reference::Reference;
 use dmm_problems::registry;
 use serde_json::{Value, json};
@@ -61,13 +61,13 @@ fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
 }
 
 fn schemes() -> Value {
-    let scheme = |method: &Method| {
+    let scheme = |method: &MethodName| {
         json!({
             "name": method.name(),
             "adaptive": method.control() == Control::Tolerance,
         })
     };
-    Method::CONSERVING.iter().map(scheme).collect()
+    MethodName::CONSERVING.iter().map(scheme).collect()
 }
 
 fn request(
@@ -78,7 +78,7 @@ fn request(
 ) -> Result<Run, Box<dyn Error>> {
     let (kind, value) = control.split_once('=').ok_or("no control")?;
     let value: f64 = value.parse()?;
-    let method = Method::find(scheme, kind == "tolerance").ok_or("unknown scheme")?;
+    let method = MethodName::find(scheme, kind == "tolerance").ok_or("unknown scheme")?;
     let fits = match method.control() {
         Control::Tolerance => kind == "tolerance",
         Control::StepSize { .. } => kind == "step",
@@ -147,7 +147,7 @@ fn ensemble(
     lanes: bool,
     repeats: usize,
 ) -> Result<Value, Box<dyn Error>> {
-    let crew = Crew {
+    let parallelism = Parallelism {
         threads: Some(1),
         lanes,
     };
@@ -157,21 +157,27 @@ fn ensemble(
         states.clear();
         let mut error = None;
         let start = ThreadTime::now();
-        problem.integrate_all(run, crew, &mut starts.iter().cloned(), &mut |fate| {
-            match fate.arrival {
-                Some(arrival) if fate.error.is_none() => states.push(arrival.x),
-                _ => error = fate.error,
-            }
-            ControlFlow::Continue(())
-        });
+        problem.integrate_all(
+            run,
+            parallelism,
+            &mut starts.iter().cloned(),
+            &mut |outcome| {
+                match outcome.arrival {
+                    Some(arrival) if outcome.error.is_none() => states.push(arrival.x),
+                    _ => error = outcome.error,
+                }
+                ControlFlow::Continue(())
+            },
+        );
         seconds.push(start.elapsed().as_secs_f64());
         if let Some(error) = error {
             return Err(error.into());
         }
     }
-    match states.len() == starts.len() {
-        true => Ok(json!({ "x": states, "seconds": seconds })),
-        false => Err("ensembles are not integrated by this scheme".into()),
+    if states.len() == starts.len() {
+        Ok(json!({ "x": states, "seconds": seconds }))
+    } else {
+        Err("ensembles are not integrated by this scheme".into())
     }
 }
 
@@ -179,9 +185,10 @@ fn describe(problem: &dyn Problem) -> Result<Value, Box<dyn Error>> {
     let model = model(problem)?;
     let formula = |id: Id| -> Result<String, Box<dyn Error>> {
         let text = to_text(&model.dag, id);
-        match text.contains('…') {
-            false => Ok(text),
-            true => Err("a formula is too long to be written out".into()),
+        if text.contains('…') {
+            Err("a formula is too long to be written out".into())
+        } else {
+            Ok(text)
         }
     };
     let regions = model.regions.iter().map(|region| {
@@ -200,10 +207,10 @@ fn describe(problem: &dyn Problem) -> Result<Value, Box<dyn Error>> {
     let interfaces = interfaces.map(|interface| formula(interface.switching_function));
     let parameters: Vec<Value> = problem.parameters().iter().map(|p| json!(p)).collect();
     Ok(json!({
-        "name": problem.card().name,
+        "name": problem.description().name,
         "states": problem.states(),
         "parameters": parameters,
-        "initial": problem.card().initial,
+        "initial": problem.description().initial,
         "regions": regions.collect::<Result<Vec<_>, Box<dyn Error>>>()?,
         "interfaces": interfaces.collect::<Result<Vec<_>, _>>()?,
         "samples": samples(problem)?,

@@ -138,9 +138,10 @@ pub fn crossings(
 ) -> Result<Vec<Node>, Stuck> {
     let side_of = |t: f64, x: &[f64]| problem.switching_function(0, t, x).signum();
     let has_interface = !problem.interfaces().is_empty();
-    let region = match has_interface {
-        true => problem.region_on_side(side_of(0.0, initial)),
-        false => Some(0),
+    let region = if has_interface {
+        problem.region_on_side(side_of(0.0, initial))
+    } else {
+        Some(0)
     };
     let region = region.ok_or(Stuck { t: 0.0 })?;
     let mut node = Node {
@@ -182,9 +183,10 @@ fn root(problem: &dyn Problem, node: &Node, upper: f64, side: f64) -> (f64, Vec<
     for iteration in 0..100 {
         let secant = lower + (upper - lower) * g_lower / (g_lower - g_upper);
         let inside = secant > lower && secant < upper;
-        let middle = match inside && iteration % 3 != 2 {
-            true => secant,
-            false => 0.5 * (lower + upper),
+        let middle = if inside && iteration % 3 != 2 {
+            secant
+        } else {
+            0.5 * (lower + upper)
         };
         if middle <= lower || middle >= upper {
             break;
@@ -226,7 +228,7 @@ mod tests {
             let Some(reference) = Reference::of(&*problem).unwrap() else {
                 continue;
             };
-            let initial = problem.card().initial;
+            let initial = problem.description().initial;
             let nodes = crossings(&*problem, initial, 50.0, usize::MAX).unwrap();
             let expected = reference
                 .crossings
@@ -237,13 +239,13 @@ mod tests {
                 expected.clone().count(),
                 (nodes.len() - 1).min(40),
                 "{}",
-                problem.card().name
+                problem.description().name
             );
             for (node, crossing) in nodes[1..].iter().zip(expected) {
                 assert!(
                     (node.t - crossing.t).abs() < AGREEMENT,
                     "{} {node:?}",
-                    problem.card().name
+                    problem.description().name
                 );
                 assert!(difference(&crossing.x, &node.x) < AGREEMENT);
                 assert_eq!(Some(node.region), problem.region_on_side(crossing.to));
@@ -256,7 +258,7 @@ mod tests {
                     assert!(
                         error < AGREEMENT,
                         "{} at {}: {error:e}",
-                        problem.card().name,
+                        problem.description().name,
                         sample.t
                     );
                 }

@@ -5,11 +5,12 @@
 //! next, at 3/10 of the way (not half way: there, by symmetry, an error of time may not show
 //! in a component). For k = 0 the crossing is the first.
 
+use dmm_runtime::ErrorKind;
 use std::ops::ControlFlow;
 
 use thiserror::Error;
 
-use crate::method::Method;
+use crate::method::MethodName;
 use crate::problem::{Crossed, OutputTimes, Problem, Run, Sink};
 use crate::truth::{Origin, Truth, TruthError};
 
@@ -20,7 +21,7 @@ const SHARE_OF_SEGMENT: f64 = 0.3;
 #[derive(Clone, PartialEq, Debug)]
 pub struct Plan {
     /// The scheme.
-    pub method: Method,
+    pub method: MethodName,
     /// x(0)
     pub initial: Vec<f64>,
     /// Numbers of transitions.
@@ -219,7 +220,7 @@ pub fn study(
         let mut collector = Collector::default();
         match problem.integrate(&run, &mut collector) {
             Ok(_) => {}
-            Err(error @ dmm_runtime::Error::InvalidInput { .. }) => {
+            Err(error) if matches!(error.kind, ErrorKind::InvalidInput { .. }) => {
                 return Err(StudyError::Input(Box::new(error)));
             }
             Err(error) => stopped.push(Stopped {

@@ -3,27 +3,28 @@
 use std::ops::ControlFlow;
 
 use dmm_runtime::{
-    Boundary, End, Ensemble, Error, Flow, FlowVisitor, Integrator, Locator, Member, NewtonLocator,
-    Observer, Point, Scheme, Statistics, System, Time, Transition, Vector,
+    Dynamics, DynamicsVisitor, End, Ensemble, Error, Guards, Integrator, Member, Method, Observer,
+    Point, Statistics, System, Time, Transition, Vector,
 };
 
-use crate::method::{Method, SchemeVisitor, symmetric};
+use crate::method::MethodVisitor;
 use crate::problem::{
-    Arrival, Card, Crew, Crossed, Fate, Finish, OutputTimes, Problem, Record, Run, Sink, Start,
+    Arrival, Crossed, Description, Finish, MemberOutcome, OutputTimes, Parallelism, Problem,
+    Record, Run, Sink, Start,
 };
 
-/// A system with its card.
+/// A system with its description.
 #[derive(Clone, Debug)]
 pub struct Entry<Sys, const N: usize> {
-    card: &'static Card,
+    description: &'static Description,
     system: Sys,
 }
 
 impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
-    /// The problem of `card`.
-    pub fn boxed(card: &'static Card) -> Box<dyn Problem> {
+    /// The problem of `description`.
+    pub fn boxed(description: &'static Description) -> Box<dyn Problem> {
         Box::new(Self {
-            card,
+            description,
             system: Sys::default(),
         })
     }
@@ -37,14 +38,13 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
         Vector::from_fn(|i, _| x.get(i).copied().unwrap_or(f64::NAN))
     }
 
-    fn observe<Sch: Scheme, Loc: Locator>(
+    fn observe<Met: Method>(
         &self,
         run: &Run,
-        scheme: Sch,
-        locator: Loc,
+        method: Met,
         sink: &mut dyn Sink,
     ) -> Result<Finish, Error> {
-        let mut relay = Relay {
+        let mut forwarding = Forwarding {
             wants_records: sink.wants_records(),
             sink,
             system: &self.system,
@@ -54,10 +54,9 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
             size: Vec::new(),
             level: Vec::new(),
         };
-        let problem = Integrator::new(&self.system, scheme)
-            .locator(locator)
-            .initial(0.0, Self::vector(&run.initial));
-        Ok(finish(problem.observe_until(run.t_end, &mut relay)?))
+        let problem =
+            Integrator::new(&self.system, method).initial(0.0, Self::vector(&run.initial));
+        Ok(finish(problem.observe_until(run.t_end, &mut forwarding)?))
     }
 }
 
@@ -76,42 +75,41 @@ struct Observed<'a, Sys, const N: usize> {
     sink: &'a mut dyn Sink,
 }
 
-impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Observed<'_, Sys, N> {
+impl<Sys: System<N> + Default, const N: usize> MethodVisitor for Observed<'_, Sys, N> {
     type Output = Result<Finish, Error>;
 
-    fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output {
-        self.entry
-            .observe(self.run, scheme, NewtonLocator, self.sink)
+    fn visit<Met: Method>(self, method: Met) -> Self::Output {
+        self.entry.observe(self.run, method, self.sink)
     }
 }
 
 /// Ignores everything.
-struct Nobody;
+struct NoSink;
 
-impl Sink for Nobody {
+impl Sink for NoSink {
     fn wants_records(&self) -> bool {
         false
     }
 }
 
-/// An integration that nobody observes.
+/// An integration that is not observed.
 struct Silent<'a, Sys, const N: usize> {
     entry: &'a Entry<Sys, N>,
     run: &'a Run,
 }
 
-impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Silent<'_, Sys, N> {
+impl<Sys: System<N> + Default, const N: usize> MethodVisitor for Silent<'_, Sys, N> {
     type Output = Result<Finish, Error>;
 
-    fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output {
+    fn visit<Met: Method>(self, method: Met) -> Self::Output {
         let initial = Entry::<Sys, N>::vector(&self.run.initial);
-        let problem = Integrator::new(&self.entry.system, scheme).initial(0.0, initial);
+        let problem = Integrator::new(&self.entry.system, method).initial(0.0, initial);
         Ok(finish(problem.observe_until(self.run.t_end, &mut ())?))
     }
 }
 
 /// Tells a [`Sink`] what the runtime tells its observer.
-struct Relay<'a, Sys> {
+struct Forwarding<'a, Sys> {
     sink: &'a mut dyn Sink,
     wants_records: bool,
     system: &'a Sys,
@@ -129,7 +127,7 @@ fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
     Sys::REGIONS.iter().position(is_it).unwrap_or_default()
 }
 
-impl<Sys> Relay<'_, Sys> {
+impl<Sys> Forwarding<'_, Sys> {
     fn record<const N: usize>(
         &mut self,
         point: &Point<Sys::Region, N>,
@@ -156,11 +154,12 @@ impl<Sys> Relay<'_, Sys> {
     }
 }
 
-impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Relay<'_, Sys> {
+impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_, Sys> {
     fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
-        match self.wants_records {
-            true => self.record(point, false),
-            false => ControlFlow::Continue(()),
+        if self.wants_records {
+            self.record(point, false)
+        } else {
+            ControlFlow::Continue(())
         }
     }
 
@@ -200,21 +199,21 @@ struct Conserved<'a, const N: usize> {
     size: &'a mut Vec<f64>,
 }
 
-impl<const N: usize> FlowVisitor<N> for Conserved<'_, N> {
+impl<const N: usize> DynamicsVisitor<N> for Conserved<'_, N> {
     type Output = ();
 
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) {
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) {
         let Time { value, remainder } = self.time;
-        let mut psi = flow.conserved(value, &self.x);
+        let mut psi = dynamics.conserved(value, &self.x);
         if remainder != 0.0 && !F::AUTONOMOUS {
             // the digits of the time that a double cannot hold: ∂ₜψ = −∇ψ·f
-            let (_, multiplier) = flow.multiplier(value, &self.x);
-            psi -= multiplier * flow.vector_field(value, &self.x) * remainder;
+            let (_, multiplier) = dynamics.multiplier(value, &self.x);
+            psi -= multiplier * dynamics.vector_field(value, &self.x) * remainder;
         }
         self.psi.clear();
         self.psi.extend(psi.iter());
         self.size.resize(M, 0.0);
-        let size = flow.conserved_size(value, &self.x);
+        let size = dynamics.conserved_size(value, &self.x);
         for (largest, now) in self.size.iter_mut().zip(size.iter()) {
             *largest = largest.max(*now);
         }
@@ -227,11 +226,11 @@ struct Field<const N: usize> {
     x: Vector<f64, N>,
 }
 
-impl<const N: usize> FlowVisitor<N> for Field<N> {
+impl<const N: usize> DynamicsVisitor<N> for Field<N> {
     type Output = Vec<f64>;
 
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Vec<f64> {
-        flow.vector_field(self.t, &self.x).as_slice().to_vec()
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> Vec<f64> {
+        dynamics.vector_field(self.t, &self.x).as_slice().to_vec()
     }
 }
 
@@ -242,11 +241,12 @@ struct Switching<const N: usize> {
     x: Vector<f64, N>,
 }
 
-impl<const N: usize> FlowVisitor<N> for Switching<N> {
+impl<const N: usize> DynamicsVisitor<N> for Switching<N> {
     type Output = f64;
 
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> f64 {
-        flow.boundary()
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> f64 {
+        dynamics
+            .guards()
             .switching_function(self.interface, self.t, &self.x)
     }
 }
@@ -255,15 +255,15 @@ impl<const N: usize> FlowVisitor<N> for Switching<N> {
 struct Together<'a, Sys, const N: usize> {
     entry: &'a Entry<Sys, N>,
     run: &'a Run,
-    crew: Crew,
+    parallelism: Parallelism,
     starts: &'a mut dyn Iterator<Item = Start>,
-    sink: &'a mut dyn FnMut(Fate) -> ControlFlow<()>,
+    sink: &'a mut dyn FnMut(MemberOutcome) -> ControlFlow<()>,
 }
 
-impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Together<'_, Sys, N> {
+impl<Sys: System<N> + Default, const N: usize> MethodVisitor for Together<'_, Sys, N> {
     type Output = ();
 
-    fn visit<Sch: Scheme>(self, scheme: Sch) {
+    fn visit<Met: Method>(self, method: Met) {
         let member = |start: Start| {
             let mut system = self.entry.system.clone();
             for (index, value) in start.parameters.into_iter().enumerate() {
@@ -279,8 +279,8 @@ impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Together<'_, Sy
             region: index_of::<Sys, N>(end.point.region),
             statistics: end.statistics,
         };
-        let ensemble = Ensemble::new(scheme).lanes(self.crew.lanes);
-        let ensemble = match self.crew.threads {
+        let ensemble = Ensemble::new(method).lanes(self.parallelism.lanes);
+        let ensemble = match self.parallelism.threads {
             Some(threads) => ensemble.threads(threads),
             None => ensemble,
         };
@@ -292,7 +292,7 @@ impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Together<'_, Sy
                     (end, Some(error))
                 }
             };
-            (self.sink)(Fate {
+            (self.sink)(MemberOutcome {
                 arrival: end.map(arrival),
                 error,
             })
@@ -301,8 +301,8 @@ impl<Sys: System<N> + Default, const N: usize> SchemeVisitor for Together<'_, Sy
 }
 
 impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
-    fn card(&self) -> &Card {
-        self.card
+    fn description(&self) -> &Description {
+        self.description
     }
 
     fn system_name(&self) -> &'static str {
@@ -381,24 +381,21 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
     }
 
     fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error> {
-        let finish = match run.method {
-            Method::Perturbed(locator) => self.observe(run, symmetric(run), locator, sink),
-            _ => run.visit_scheme(Observed {
-                entry: self,
-                run,
-                sink,
-            }),
+        let observed = Observed {
+            entry: self,
+            run,
+            sink,
         };
-        Ok(finish?.statistics)
+        Ok(run.visit_method(observed)?.statistics)
     }
 
     fn integrate_silently(&self, run: &Run) -> Result<Finish, Error> {
         let silent = Silent { entry: self, run };
         run.visit_unobserved(silent).unwrap_or_else(|| {
-            run.visit_scheme(Observed {
+            run.visit_method(Observed {
                 entry: self,
                 run,
-                sink: &mut Nobody,
+                sink: &mut NoSink,
             })
         })
     }
@@ -406,15 +403,15 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
     fn integrate_all(
         &self,
         run: &Run,
-        crew: Crew,
+        parallelism: Parallelism,
         starts: &mut dyn Iterator<Item = Start>,
-        sink: &mut dyn FnMut(Fate) -> ControlFlow<()>,
+        sink: &mut dyn FnMut(MemberOutcome) -> ControlFlow<()>,
     ) {
         // a scheme that is not compiled for ensembles has been refused
         run.visit_unobserved(Together {
             entry: self,
             run,
-            crew,
+            parallelism,
             starts,
             sink,
         });

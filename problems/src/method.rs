@@ -1,7 +1,7 @@
 //! The schemes by name: a row of `methods!` is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
-use dmm_runtime::{Best, Composed, Scheme, Symmetric, Taylor};
+use dmm_runtime::{Best, Composed, Method, Symmetric, Taylor, Uniform};
 
 use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
@@ -20,12 +20,12 @@ pub enum Control {
 }
 
 /// What is done with a scheme of whatever type.
-pub trait SchemeVisitor {
+pub trait MethodVisitor {
     /// The result.
     type Output;
 
     /// Does it.
-    fn visit<Sch: Scheme>(self, scheme: Sch) -> Self::Output;
+    fn visit<Met: Method>(self, method: Met) -> Self::Output;
 }
 
 const fn order(order: i32) -> Control {
@@ -47,14 +47,14 @@ macro_rules! methods {
     ) => {
         /// The scheme of a run.
         #[derive(Clone, Copy, PartialEq, Debug)]
-        pub enum Method {
+        pub enum MethodName {
             $(#[doc = $doc] $variant,)+
             $(#[doc = $other_doc] $other,)+
             /// The scheme of order 2 with every crossing located too late.
             Perturbed(Perturbed),
         }
 
-        impl Method {
+        impl MethodName {
             /// The schemes that conserve.
             pub const CONSERVING: &'static [Self] = &[$(Self::$variant),+];
             /// Others.
@@ -92,11 +92,11 @@ macro_rules! methods {
 
         impl Run {
             /// Hands the scheme of the run to `visitor`.
-            pub(crate) fn visit_scheme<V: SchemeVisitor>(&self, visitor: V) -> V::Output {
+            pub(crate) fn visit_method<V: MethodVisitor>(&self, visitor: V) -> V::Output {
                 match self.method {
-                    $(Method::$variant => visitor.visit(apply(self, $scheme)),)+
-                    $(Method::$other => visitor.visit(apply(self, $other_scheme)),)+
-                    Method::Perturbed(_) => visitor.visit(symmetric(self)),
+                    $(MethodName::$variant => visitor.visit(apply(self, $scheme)),)+
+                    $(MethodName::$other => visitor.visit(apply(self, $other_scheme)),)+
+                    MethodName::Perturbed(late) => visitor.visit(symmetric(self).locator(late)),
                 }
             }
         }
@@ -130,20 +130,20 @@ methods! {
 
 impl Run {
     /// Hands the scheme of the run to `visitor`, if it is one that is compiled for runs that
-    /// nobody observes too: the fastest with uniform and with chosen steps. The others would take
+    /// are not observed too: the fastest with uniform and with chosen steps. The others would take
     /// minutes more to compile for every problem.
-    pub(crate) fn visit_unobserved<V: SchemeVisitor>(&self, visitor: V) -> Option<V::Output> {
+    pub(crate) fn visit_unobserved<V: MethodVisitor>(&self, visitor: V) -> Option<V::Output> {
         let Self {
             tolerance,
             level_correction,
             ..
         } = *self;
         Some(match self.method {
-            Method::Symmetric => visitor.visit(symmetric(self)),
-            Method::Taylor => {
+            MethodName::Symmetric => visitor.visit(symmetric(self)),
+            MethodName::Taylor => {
                 visitor.visit(Taylor::tolerance(tolerance).level_correction(level_correction))
             }
-            Method::Best => {
+            MethodName::Best => {
                 visitor.visit(Best::tolerance(tolerance).level_correction(level_correction))
             }
             _ => return None,
@@ -157,11 +157,11 @@ fn apply<Sch>(run: &Run, scheme: impl Fn(&Run) -> Sch) -> Sch {
 }
 
 /// The conservative scheme of order 2 of a run.
-pub(crate) fn symmetric(run: &Run) -> Symmetric {
+pub(crate) fn symmetric(run: &Run) -> Uniform<Symmetric> {
     Symmetric::step_size(run.step_size).level_correction(run.level_correction)
 }
 
-impl Method {
+impl MethodName {
     /// Every scheme that has a name on the command line.
     pub fn all() -> impl Iterator<Item = Self> {
         Self::CONSERVING.iter().chain(Self::FOR_COMPARISON).copied()
@@ -184,17 +184,17 @@ mod tests {
 
     #[test]
     fn a_name_and_a_control_are_one_scheme() {
-        let rows: Vec<_> = Method::all()
+        let rows: Vec<_> = MethodName::all()
             .map(|method| (method.name(), method.control() == Control::Tolerance))
             .collect();
         for (i, row) in rows.iter().enumerate() {
             assert!(!rows[..i].contains(row), "{row:?}");
         }
-        for method in Method::all() {
+        for method in MethodName::all() {
             let adaptive = method.control() == Control::Tolerance;
-            assert_eq!(Method::find(method.name(), adaptive), Some(method));
+            assert_eq!(MethodName::find(method.name(), adaptive), Some(method));
         }
-        assert_eq!(Method::find("taylor", false), Some(Method::Taylor));
-        assert_eq!(Method::find("euler", false), None);
+        assert_eq!(MethodName::find("taylor", false), Some(MethodName::Taylor));
+        assert_eq!(MethodName::find("euler", false), None);
     }
 }

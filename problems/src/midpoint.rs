@@ -2,27 +2,30 @@
 //! method of order 2 that Hirani, Wan & Wojtalewicz compare with (their Figs 5 and 8). It
 //! does not conserve ψ.
 
-use dmm_runtime::{Correction, Flow, OneStep, Statistics, Step, StepFailure, Vector};
+use dmm_runtime::{Correction, Dynamics, OneStep, Statistics, Step, StepFailure, Uniform, Vector};
 
-/// The explicit midpoint rule with uniform steps, without a correction of the level.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct ExplicitMidpoint {
-    step_size: f64,
-}
+/// The explicit midpoint rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct ExplicitMidpoint;
 
 impl ExplicitMidpoint {
-    /// Uniform steps of `step_size`.
-    pub fn step_size(step_size: f64) -> Self {
-        Self { step_size }
+    /// Uniform steps of `step_size`, without a correction of the level.
+    pub fn step_size(step_size: f64) -> Uniform<Self> {
+        Uniform::new(Self, step_size).level_correction(false)
     }
 }
 
-fn increment<const N: usize, const M: usize, F: Flow<f64, N, M>>(
-    &Step { flow, t0, x0, tau }: &Step<'_, F, N>,
+fn increment<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+    &Step {
+        dynamics,
+        t0,
+        x0,
+        tau,
+    }: &Step<'_, F, N>,
 ) -> Vector<f64, N> {
     let half = 0.5 * tau;
-    let middle = x0 + flow.vector_field(t0, x0) * half;
-    flow.vector_field(t0 + half, &middle) * tau
+    let middle = x0 + dynamics.vector_field(t0, x0) * half;
+    dynamics.vector_field(t0 + half, &middle) * tau
 }
 
 impl OneStep for ExplicitMidpoint {
@@ -30,46 +33,43 @@ impl OneStep for ExplicitMidpoint {
 
     const ORDER: usize = 2;
 
-    fn step_size(&self) -> f64 {
-        self.step_size
-    }
-
-    fn corrects_level(&self) -> bool {
-        false
-    }
-
-    fn begin<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
-        _flow: &F,
-        _t: f64,
-        _x: &Vector<f64, N>,
+        _dynamics: &F,
+        _step_size: Option<f64>,
     ) {
     }
 
-    fn step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn step<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
         step: &Step<'_, F, N>,
         _statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
         let increment = increment(step);
-        match increment.iter().all(|component| component.is_finite()) {
-            true => Ok(increment),
-            false => Err(StepFailure::NotFinite),
+        if increment.iter().all(|component| component.is_finite()) {
+            Ok(increment)
+        } else {
+            Err(StepFailure::NotFinite)
         }
     }
 
     /// The velocity is that of the exact flow, off by O(τ²): the locator's iteration converges
     /// linearly with that factor, to the same point.
-    fn correction<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn correction<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
         step: &Step<'_, F, N>,
         current: &Vector<f64, N>,
     ) -> Option<Correction<N>> {
         let end = increment(step);
-        let &Step { flow, t0, x0, tau } = step;
+        let &Step {
+            dynamics,
+            t0,
+            x0,
+            tau,
+        } = step;
         Some(Correction {
             delta: end - current,
-            velocity: flow.vector_field(t0 + tau, &(x0 + end)),
+            velocity: dynamics.vector_field(t0 + tau, &(x0 + end)),
         })
     }
 }

@@ -3,7 +3,7 @@
 //! Hirani, Wan & Wojtalewicz (Figs 4 and 7) show with it what their Theorem 3.1 says: the
 //! order of the scheme survives the transition for p ≥ 2 and falls to 1 for p = 1.
 
-use dmm_runtime::{Crossing, Flow, Located, Locator, NewtonLocator, OneStep, Statistics};
+use dmm_runtime::{Crossing, Dynamics, Located, Locator, NewtonLocator, OneStep, Statistics};
 
 /// [`NewtonLocator`], then `amplitude`·τ^`power` later along the one-step map.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -15,9 +15,9 @@ pub struct Perturbed {
 }
 
 impl Locator for Perturbed {
-    fn locate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn locate<Map: OneStep, const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
-        crossing: &Crossing<'_, Sch, F, N>,
+        crossing: &Crossing<'_, Map, F, N>,
         statistics: &mut Statistics,
     ) -> Option<Located<N>> {
         let exact = NewtonLocator.locate(crossing, statistics)?;

@@ -1,20 +1,20 @@
 //! Problems as objects: the same operations on every system, whatever its dimension.
 //!
 //! [`Problem`] hides the number of states; [`Entry`](crate::entry::Entry) implements it
-//! for a system declared by `pws!` together with its [`Card`].
+//! for a system declared by `pws!` together with its [`Description`].
 
 use std::ops::ControlFlow;
 
 use dmm_runtime::{Error, Statistics};
 
-use crate::method::Method;
+use crate::method::MethodName;
 
 /// Of a run, unless another is given.
 pub const DEFAULT_TOLERANCE: f64 = 1e-12;
 
 /// What a problem is called, where it comes from, and its initial value problem.
 #[derive(Clone, Copy, Debug)]
-pub struct Card {
+pub struct Description {
     /// Name on the command line.
     pub name: &'static str,
     /// One line on what it is.
@@ -38,7 +38,7 @@ pub struct Card {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Run {
     /// The scheme.
-    pub method: Method,
+    pub method: MethodName,
     /// τ, if the scheme has uniform steps.
     pub step_size: f64,
     /// The tolerance, if the scheme has one.
@@ -160,7 +160,7 @@ pub struct Arrival {
 /// What became of a member of an ensemble: where it came to, if it started at all, and what
 /// stopped it, if anything did.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Fate {
+pub struct MemberOutcome {
     /// Where it came to.
     pub arrival: Option<Arrival>,
     /// What stopped it.
@@ -169,7 +169,7 @@ pub struct Fate {
 
 /// How an ensemble is computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Crew {
+pub struct Parallelism {
     /// Threads, or one for each core.
     pub threads: Option<usize>,
     /// Whether several trajectories are integrated in a register.
@@ -220,7 +220,7 @@ pub trait Sink {
 /// A problem, with its system's present parameters.
 pub trait Problem: Send + Sync {
     /// Name, source and initial value problem.
-    fn card(&self) -> &Card;
+    fn description(&self) -> &Description;
     /// The name of the declared system.
     fn system_name(&self) -> &'static str;
     /// The declaration.
@@ -252,7 +252,7 @@ pub trait Problem: Send + Sync {
     /// # Errors
     /// Whatever stops the integration.
     fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error>;
-    /// Makes a run that nobody listens to, for its speed.
+    /// Makes a run that is not listened to, for its speed.
     ///
     /// # Errors
     /// Whatever stops the integration.
@@ -261,31 +261,31 @@ pub trait Problem: Send + Sync {
     fn integrate_all(
         &self,
         run: &Run,
-        crew: Crew,
+        parallelism: Parallelism,
         starts: &mut dyn Iterator<Item = Start>,
-        sink: &mut dyn FnMut(Fate) -> ControlFlow<()>,
+        sink: &mut dyn FnMut(MemberOutcome) -> ControlFlow<()>,
     );
     /// A copy.
     fn duplicate(&self) -> Box<dyn Problem>;
 
-    /// The run of the problem's card.
+    /// The run of the problem's description.
     fn default_run(&self) -> Run {
-        let card = self.card();
+        let description = self.description();
         Run {
-            method: Method::Symmetric,
-            step_size: card.step_size,
+            method: MethodName::Symmetric,
+            step_size: description.step_size,
             tolerance: DEFAULT_TOLERANCE,
             level_correction: true,
-            initial: card.initial.to_vec(),
-            t_end: card.t_end,
+            initial: description.initial.to_vec(),
+            t_end: description.t_end,
             output_times: OutputTimes::None,
         }
     }
 
     /// Whether a run from `initial` is the one that the reference solution is of.
     fn is_reference_run(&self, initial: &[f64]) -> bool {
-        self.card().reference.is_some()
+        self.description().reference.is_some()
             && self.has_default_parameters()
-            && initial == self.card().initial
+            && initial == self.description().initial
     }
 }

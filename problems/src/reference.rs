@@ -158,7 +158,7 @@ impl Reference {
     /// # Errors
     /// [`ReferenceError`] if it is malformed.
     pub fn of(problem: &dyn Problem) -> Result<Option<Self>, ReferenceError> {
-        problem.card().reference.map(Self::parse).transpose()
+        problem.description().reference.map(Self::parse).transpose()
     }
 
     /// The level of ψ on a side, if it is the same in every segment there: the orbit is closed,

@@ -7,27 +7,27 @@ use crate::systems::*;
 /// Every problem, the piecewise-smooth ones first.
 pub fn all() -> Vec<Box<dyn Problem>> {
     vec![
-        Entry::<Harmonic, 2>::boxed(&harmonic::CARD),
-        Entry::<Elliptic, 2>::boxed(&elliptic::CARD),
-        Entry::<Pendulum, 2>::boxed(&pendulum::CARD),
-        Entry::<LotkaVolterra, 2>::boxed(&lotka_volterra_periodic::CARD),
-        Entry::<Damped, 2>::boxed(&damped::CARD),
-        Entry::<Spiral, 2>::boxed(&spiral::CARD),
-        Entry::<RigidBody, 3>::boxed(&rigid_body::CARD),
-        Entry::<KeplerRefraction, 4>::boxed(&kepler_refraction::CARD),
-        Entry::<SaturatingInductor, 2>::boxed(&saturating_inductor::CARD),
-        Entry::<FoodChain, 3>::boxed(&food_chain::CARD),
-        Entry::<FputChain, 16>::boxed(&fput_chain::CARD),
-        Entry::<FputChain32, 64>::boxed(&fput_chain_32::CARD),
-        Entry::<TodaChain, 16>::boxed(&toda_chain::CARD),
-        Entry::<TodaChain32, 64>::boxed(&toda_chain_32::CARD),
-        Entry::<Toda, 6>::boxed(&toda::CARD),
-        Entry::<RelativisticOscillator, 2>::boxed(&relativistic_oscillator::CARD),
-        Entry::<HenonHeiles, 4>::boxed(&henon_heiles::CARD),
-        Entry::<PoschlTeller, 2>::boxed(&poschl_teller::CARD),
-        Entry::<SaturatingSpring, 2>::boxed(&saturating_spring::CARD),
-        Entry::<DoublePendulum, 4>::boxed(&double_pendulum::CARD),
-        Entry::<ThreeBody, 12>::boxed(&three_body::CARD),
+        Entry::<Harmonic, 2>::boxed(&harmonic::DESCRIPTION),
+        Entry::<Elliptic, 2>::boxed(&elliptic::DESCRIPTION),
+        Entry::<Pendulum, 2>::boxed(&pendulum::DESCRIPTION),
+        Entry::<LotkaVolterra, 2>::boxed(&lotka_volterra_periodic::DESCRIPTION),
+        Entry::<Damped, 2>::boxed(&damped::DESCRIPTION),
+        Entry::<Spiral, 2>::boxed(&spiral::DESCRIPTION),
+        Entry::<RigidBody, 3>::boxed(&rigid_body::DESCRIPTION),
+        Entry::<KeplerRefraction, 4>::boxed(&kepler_refraction::DESCRIPTION),
+        Entry::<SaturatingInductor, 2>::boxed(&saturating_inductor::DESCRIPTION),
+        Entry::<FoodChain, 3>::boxed(&food_chain::DESCRIPTION),
+        Entry::<FputChain, 16>::boxed(&fput_chain::DESCRIPTION),
+        Entry::<FputChain32, 64>::boxed(&fput_chain_32::DESCRIPTION),
+        Entry::<TodaChain, 16>::boxed(&toda_chain::DESCRIPTION),
+        Entry::<TodaChain32, 64>::boxed(&toda_chain_32::DESCRIPTION),
+        Entry::<Toda, 6>::boxed(&toda::DESCRIPTION),
+        Entry::<RelativisticOscillator, 2>::boxed(&relativistic_oscillator::DESCRIPTION),
+        Entry::<HenonHeiles, 4>::boxed(&henon_heiles::DESCRIPTION),
+        Entry::<PoschlTeller, 2>::boxed(&poschl_teller::DESCRIPTION),
+        Entry::<SaturatingSpring, 2>::boxed(&saturating_spring::DESCRIPTION),
+        Entry::<DoublePendulum, 4>::boxed(&double_pendulum::DESCRIPTION),
+        Entry::<ThreeBody, 12>::boxed(&three_body::DESCRIPTION),
     ]
 }
 
@@ -38,10 +38,13 @@ pub fn all() -> Vec<Box<dyn Problem>> {
 pub fn find(name: &str) -> Result<Box<dyn Problem>, Unknown> {
     let wanted = name.to_lowercase().replace('-', "_");
     let problems = all();
-    let closest = closest(&wanted, problems.iter().map(|problem| problem.card().name));
+    let closest = closest(
+        &wanted,
+        problems.iter().map(|problem| problem.description().name),
+    );
     problems
         .into_iter()
-        .find(|problem| problem.card().name == wanted)
+        .find(|problem| problem.description().name == wanted)
         .ok_or_else(|| Unknown {
             kind: "problem",
             name: name.to_owned(),
@@ -83,10 +86,16 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_found() {
-        let names: Vec<_> = all().iter().map(|problem| problem.card().name).collect();
+        let names: Vec<_> = all()
+            .iter()
+            .map(|problem| problem.description().name)
+            .collect();
         for (i, name) in names.iter().enumerate() {
             assert!(!names[..i].contains(name));
-            assert_eq!(find(&name.replace('_', "-")).unwrap().card().name, *name);
+            assert_eq!(
+                find(&name.replace('_', "-")).unwrap().description().name,
+                *name
+            );
         }
     }
 
@@ -101,9 +110,16 @@ mod tests {
     #[test]
     fn cards_fit_their_systems() {
         for problem in all() {
-            let card = problem.card();
-            assert_eq!(card.initial.len(), problem.states().len(), "{}", card.name);
-            assert!(problem.is_reference_run(card.initial) == card.reference.is_some());
+            let description = problem.description();
+            assert_eq!(
+                description.initial.len(),
+                problem.states().len(),
+                "{}",
+                description.name
+            );
+            assert!(
+                problem.is_reference_run(description.initial) == description.reference.is_some()
+            );
         }
     }
 }

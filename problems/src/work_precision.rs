@@ -13,7 +13,7 @@ use dmm_runtime::{Error, Statistics};
 use thiserror::Error as ThisError;
 
 use crate::accurate;
-use crate::method::{Control, Method};
+use crate::method::{Control, MethodName};
 use crate::problem::{Finish, Problem, Run};
 use crate::reference::Reference;
 use crate::truth::{Origin, TruthError};
@@ -49,7 +49,7 @@ pub struct Goal {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Setting {
     /// The scheme.
-    pub method: Method,
+    pub method: MethodName,
     /// Its step size or tolerance.
     pub control: f64,
     /// ‖x̂ − x‖ at the time of comparison.
@@ -103,7 +103,7 @@ impl Goal {
         if !(t.is_finite() && t > 0.0) {
             return Err(GoalError::Time(t));
         }
-        let nodes = accurate::crossings(problem, problem.card().initial, t, usize::MAX)
+        let nodes = accurate::crossings(problem, problem.description().initial, t, usize::MAX)
             .map_err(TruthError::from)?;
         let last = nodes
             .last()
@@ -120,7 +120,7 @@ impl Goal {
     pub fn measure(
         &self,
         problem: &dyn Problem,
-        methods: &[Method],
+        methods: &[MethodName],
         rounds: u32,
         mut progress: impl FnMut(),
     ) -> Vec<Setting> {
@@ -143,7 +143,7 @@ impl Goal {
         settings
     }
 
-    fn run(&self, problem: &dyn Problem, method: Method, control: f64) -> Run {
+    fn run(&self, problem: &dyn Problem, method: MethodName, control: f64) -> Run {
         Run {
             method,
             step_size: control,
@@ -155,7 +155,7 @@ impl Goal {
 
     /// The settings of a scheme, from the coarsest until the error is rounding or a run takes
     /// too long.
-    fn ladder(&self, problem: &dyn Problem, method: Method) -> Vec<Setting> {
+    fn ladder(&self, problem: &dyn Problem, method: MethodName) -> Vec<Setting> {
         let mut settings = Vec::new();
         let (mut control, factor, least) = match method.control() {
             Control::StepSize { .. } => (LARGEST_STEP, 0.5, 0.0),
@@ -178,7 +178,7 @@ impl Goal {
         settings
     }
 
-    fn setting(&self, method: Method, control: f64, finish: &Finish) -> Setting {
+    fn setting(&self, method: MethodName, control: f64, finish: &Finish) -> Setting {
         let squares = finish.x.iter().zip(&self.x).map(|(a, b)| (a - b).powi(2));
         Setting {
             method,
@@ -202,7 +202,7 @@ fn turn(problem: &dyn Problem, run: &Run) -> Result<f64, Error> {
 }
 
 /// The fastest setting of a scheme that reaches an error, and whose next finer one does too.
-pub fn fastest(settings: &[Setting], method: Method, error: f64) -> Option<&Setting> {
+pub fn fastest(settings: &[Setting], method: MethodName, error: f64) -> Option<&Setting> {
     let own: Vec<&Setting> = settings.iter().filter(|it| it.method == method).collect();
     let next = own.iter().skip(1).chain(own.last());
     own.iter()
@@ -235,8 +235,13 @@ mod tests {
     fn finer_settings_have_smaller_errors() {
         let problem = registry::find("harmonic").unwrap();
         let goal = Goal::of(&*problem, Some(5.0)).unwrap();
-        let settings = goal.measure(&*problem, &[Method::Symmetric, Method::Taylor], 2, || ());
-        for method in [Method::Symmetric, Method::Taylor] {
+        let settings = goal.measure(
+            &*problem,
+            &[MethodName::Symmetric, MethodName::Taylor],
+            2,
+            || (),
+        );
+        for method in [MethodName::Symmetric, MethodName::Taylor] {
             let errors: Vec<f64> = settings
                 .iter()
                 .filter(|setting| setting.method == method)
@@ -246,6 +251,6 @@ mod tests {
             let loose = fastest(&settings, method, 1e-3).unwrap();
             assert!(loose.error <= 1e-3 && loose.seconds.len() == 2);
         }
-        assert!(fastest(&settings, Method::Taylor, 1e-30).is_none());
+        assert!(fastest(&settings, MethodName::Taylor, 1e-30).is_none());
     }
 }

@@ -1,6 +1,6 @@
 //! Tests across the workspace; see `tests/`. What several of them do is here.
 
-use dmm_runtime::{End, Halted, Integrator, Scheme, System};
+use dmm_runtime::{End, Halted, Integrator, Method, System};
 
 /// The end of a run from `initial` at t = 0.
 ///
@@ -9,7 +9,7 @@ use dmm_runtime::{End, Halted, Integrator, Scheme, System};
 /// What stops it before `t_end`.
 pub fn run<Sys: System<N>, const N: usize>(
     system: &Sys,
-    scheme: impl Scheme,
+    scheme: impl Method,
     initial: [f64; N],
     t_end: f64,
 ) -> Result<End<Sys::Region, N>, Halted<Sys::Region, N>> {

@@ -2,7 +2,7 @@
 //! it, transitions and outputs are those of uniform steps, and what cannot go on ends typed.
 
 use dmm_problems::systems::elliptic::Elliptic;
-use dmm_runtime::{Composed, Error, Integrator, Scheme, Symmetric, Taylor, Vector, pws};
+use dmm_runtime::{Composed, ErrorKind, Integrator, Method, Symmetric, Taylor, Vector, pws};
 use dmm_tests::run;
 
 pws! {
@@ -31,7 +31,7 @@ pws! {
 const PLANET: [f64; 4] = [1.9, 0.0, 0.0, 0.229_415_733_870_561_77];
 
 /// The error of the elliptic problem at t = 10, after ten transitions.
-fn error(scheme: impl Scheme) -> f64 {
+fn error(scheme: impl Method) -> f64 {
     let system = Elliptic::default();
     let exact = run(&system, Taylor::tolerance(1e-15), [-1.0, -1.0], 10.0).unwrap();
     let found = run(&system, scheme, [-1.0, -1.0], 10.0).unwrap();
@@ -121,8 +121,8 @@ fn a_singularity_ends_in_a_typed_error() {
     for tolerance in [1e-3, 1e-6] {
         let halted = run(&Blowup {}, Symmetric::tolerance(tolerance), [1.0], 2.0).unwrap_err();
         assert!(matches!(
-            halted.error(),
-            Error::LeftDomain { .. } | Error::NewtonFailed { .. }
+            halted.error().kind,
+            ErrorKind::LeftDomain | ErrorKind::NewtonFailed { .. }
         ));
         let end = halted.end().unwrap();
         assert!((end.point.t - 1.0).abs() < 0.01, "{}", end.point.t);
@@ -137,8 +137,8 @@ fn tolerances_that_make_no_sense_are_refused() {
             .initial(0.0, [1.0])
             .run_until(0.5)
             .unwrap_err();
-        let what = match error.error() {
-            Error::InvalidInput { what, .. } => *what,
+        let what = match &error.error().kind {
+            ErrorKind::InvalidInput { what, .. } => *what,
             other => panic!("{other}"),
         };
         assert_eq!(what, "tolerance");

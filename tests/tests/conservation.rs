@@ -5,7 +5,7 @@
 //! bounds.
 
 use dmm_problems::conservation::{Conservation, measure};
-use dmm_problems::method::Method;
+use dmm_problems::method::MethodName;
 use dmm_problems::registry::{all, find};
 
 const STEPS: f64 = 10_000.0;
@@ -28,7 +28,7 @@ fn conservation(name: &str, level_correction: bool, step_size: f64) -> Conservat
 #[test]
 fn levels_are_kept_to_a_few_units_in_the_last_place() {
     for problem in all() {
-        let name = problem.card().name;
+        let name = problem.description().name;
         for step_size in [1e-3, 7.3e-3] {
             // evaluating ψ costs two or three roundings of its terms, the state's own one each
             let kept = conservation(name, true, step_size);
@@ -40,9 +40,9 @@ fn levels_are_kept_to_a_few_units_in_the_last_place() {
 #[test]
 fn levels_are_kept_whatever_the_tolerance() {
     for problem in all() {
-        let settings = [1e-3, 1e-8, 1e-15].map(|tolerance| (Method::Taylor, tolerance));
-        for (method, tolerance) in settings.into_iter().chain([(Method::Best, 1e-12)]) {
-            let name = format!("{}, {}", problem.card().name, method.name());
+        let settings = [1e-3, 1e-8, 1e-15].map(|tolerance| (MethodName::Taylor, tolerance));
+        for (method, tolerance) in settings.into_iter().chain([(MethodName::Best, 1e-12)]) {
+            let name = format!("{}, {}", problem.description().name, method.name());
             let mut run = problem.default_run();
             run.method = method;
             run.tolerance = tolerance;
@@ -82,7 +82,7 @@ fn levels_are_kept_at_coarse_steps() {
 #[test]
 fn conservation_is_by_construction_not_by_repair() {
     for problem in all() {
-        let name = problem.card().name;
+        let name = problem.description().name;
         // without correction the roundings of 10⁴ steps add up like a random walk
         let bare = conservation(name, false, 1e-3);
         assert!(bare.relative() <= 1e-14, "{name}: {:e}", bare.relative());
@@ -94,7 +94,7 @@ fn explicit_midpoint_does_not_conserve() {
     // the bounds above mean something: a method of the same order is far from them
     let problem = find("elliptic").unwrap();
     let mut run = problem.default_run();
-    run.method = Method::ExplicitMidpoint;
+    run.method = MethodName::ExplicitMidpoint;
     run.step_size = 1e-3;
     run.t_end = 10.0;
     let midpoint = measure(problem.as_ref(), &run, &mut |_| {}).unwrap();

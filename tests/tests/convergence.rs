@@ -3,7 +3,7 @@
 //! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
 
 use dmm_problems::convergence::{Plan, Row, Study, fitted_order, study};
-use dmm_problems::method::Method;
+use dmm_problems::method::MethodName;
 use dmm_problems::perturbed::Perturbed;
 use dmm_problems::registry::find;
 
@@ -18,7 +18,7 @@ const TOLERANCE: f64 = 0.03;
 
 fn measured(
     name: &str,
-    method: Method,
+    method: MethodName,
     after: &[usize],
     halvings: std::ops::RangeInclusive<i32>,
 ) -> Study {
@@ -26,16 +26,16 @@ fn measured(
     studied(name, method, after, step_sizes)
 }
 
-fn studied(name: &str, method: Method, after: &[usize], step_sizes: Vec<f64>) -> Study {
+fn studied(name: &str, method: MethodName, after: &[usize], step_sizes: Vec<f64>) -> Study {
     let problem = find(name).unwrap();
     let plan = Plan {
         method,
-        initial: problem.card().initial.to_vec(),
+        initial: problem.description().initial.to_vec(),
         after: after.to_vec(),
         step_sizes,
         t_end: match problem.interfaces() {
             [] => T_SMOOTH,
-            _ => problem.card().t_end,
+            _ => problem.description().t_end,
         },
     };
     let study = study(problem.as_ref(), &plan, || {}).unwrap();
@@ -56,7 +56,7 @@ fn assert_order(study: &Study, errors: &[f64], order: f64, what: &str) {
 /// the next term of the error still shows (a symmetric scheme is of even order: what is above 7
 /// is 8).
 struct Composition {
-    method: Method,
+    method: MethodName,
     exponent: f64,
     longest_step: f64,
     tolerance: f64,
@@ -64,19 +64,19 @@ struct Composition {
 
 const COMPOSITIONS: [Composition; 3] = [
     Composition {
-        method: Method::Composed4,
+        method: MethodName::Composed4,
         exponent: 4.0,
         longest_step: 1.0 / 16.0,
         tolerance: 0.1,
     },
     Composition {
-        method: Method::Composed6,
+        method: MethodName::Composed6,
         exponent: 6.0,
         longest_step: 1.0 / 8.0,
         tolerance: 0.2,
     },
     Composition {
-        method: Method::Composed8,
+        method: MethodName::Composed8,
         exponent: 8.0,
         longest_step: 1.0 / 4.0,
         tolerance: 0.75,
@@ -125,7 +125,7 @@ fn assert_crossing_order(study: &Study, row: &Row, name: &str) {
 #[test]
 fn the_papers_systems_have_order_2_before_and_after_transitions() {
     for name in ["harmonic", "elliptic"] {
-        let study = measured(name, Method::Symmetric, &[0, 10, 20, 30], HALVINGS);
+        let study = measured(name, MethodName::Symmetric, &[0, 10, 20, 30], HALVINGS);
         for row in &study.rows {
             for (i, errors) in row.components.iter().enumerate() {
                 let what = format!("{name}, component {i} after {}", row.transitions);
@@ -186,7 +186,7 @@ fn every_strategy_keeps_the_order_across_transitions() {
         "kepler_refraction",
         "rigid_body",
     ] {
-        let study = measured(name, Method::Symmetric, &[0, 3, 6], HALVINGS);
+        let study = measured(name, MethodName::Symmetric, &[0, 3, 6], HALVINGS);
         for row in &study.rows {
             // a single component may happen to have a small leading coefficient
             let what = format!("{name}, after {}", row.transitions);
@@ -206,7 +206,7 @@ fn chains_and_circuits_keep_the_order_across_transitions() {
         ("fput_chain_32", &[0, 1], 5..=7),
         ("toda_chain_32", &[0, 3], 5..=7),
     ] {
-        let study = measured(name, Method::Symmetric, after, halvings);
+        let study = measured(name, MethodName::Symmetric, after, halvings);
         for row in &study.rows {
             let what = format!("{name}, after {}", row.transitions);
             assert_order(&study, &row.norms(), 2.0, &what);
@@ -226,7 +226,7 @@ fn smooth_systems_have_order_2() {
         "double_pendulum",
         "three_body",
     ] {
-        let study = measured(name, Method::Symmetric, &[0], 7..=10);
+        let study = measured(name, MethodName::Symmetric, &[0], 7..=10);
         let row = &study.rows[0];
         assert_order(&study, &row.norms(), 2.0, name);
     }
@@ -234,7 +234,7 @@ fn smooth_systems_have_order_2() {
 
 #[test]
 fn crossings_located_to_first_order_cost_an_order() {
-    let late = Method::Perturbed(Perturbed {
+    let late = MethodName::Perturbed(Perturbed {
         amplitude: 1.0 / 16.0,
         power: 1,
     });

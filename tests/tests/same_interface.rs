@@ -2,7 +2,7 @@
 //! the switching function's series, scale and domain are.
 
 use dmm_runtime::{
-    Best, Composed, Ensemble, Integrator, Member, Scheme, Symmetric, System, Taylor,
+    Best, Composed, Ensemble, Integrator, Member, Method, Symmetric, System, Taylor,
 };
 
 macro_rules! pendulums {
@@ -29,12 +29,12 @@ macro_rules! pendulums {
         })+
 
         /// The crossings of each of the ten with a scheme, from each start.
-        fn all(scheme: impl Scheme) -> Vec<(&'static str, Vec<Orbit>)> {
+        fn all(scheme: impl Method) -> Vec<(&'static str, Vec<Orbit>)> {
             vec![$((stringify!($name), orbits($name::Pendulum {}, scheme.clone()))),+]
         }
 
         /// Their ends in the lanes of an ensemble.
-        fn all_in_lanes(scheme: impl Scheme) -> Vec<(&'static str, Vec<Orbit>)> {
+        fn all_in_lanes(scheme: impl Method) -> Vec<(&'static str, Vec<Orbit>)> {
             vec![$((stringify!($name), in_lanes($name::Pendulum {}, scheme.clone()))),+]
         }
     };
@@ -73,7 +73,7 @@ enum Orbit {
     Stopped(String),
 }
 
-fn orbits<Sys: System<2>>(system: Sys, scheme: impl Scheme) -> Vec<Orbit> {
+fn orbits<Sys: System<2>>(system: Sys, scheme: impl Method) -> Vec<Orbit> {
     let orbit = |start: &[f64; 2]| {
         let problem = Integrator::new(&system, scheme.clone()).initial(0.0, *start);
         match problem.run_until(T_END) {
@@ -89,7 +89,7 @@ fn orbits<Sys: System<2>>(system: Sys, scheme: impl Scheme) -> Vec<Orbit> {
     STARTS.iter().map(orbit).collect()
 }
 
-fn in_lanes<Sys: System<2>>(system: Sys, scheme: impl Scheme) -> Vec<Orbit> {
+fn in_lanes<Sys: System<2>>(system: Sys, scheme: impl Method) -> Vec<Orbit> {
     let members = STARTS.map(|start| Member::new(system.clone(), 0.0, start));
     let outcomes = Ensemble::new(scheme).collect_until(T_END, members);
     let orbit = |outcome: dmm_runtime::Outcome<Sys::Region, 2>| match outcome {

@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::emit::{Evaluated, Operations};
-use dmm_compiler::optimise::Count;
+use dmm_compiler::program::optimise::Count;
+use dmm_compiler::program::{Function, Functions, Program, Quantity};
 use dmm_compiler::{check, emit, proofs, scheme, syntax};
 use proc_macro2::TokenStream;
 
@@ -101,17 +101,19 @@ struct Operation {
 }
 
 impl Operation {
-    /// Those of the function `name` in the region that takes the most.
-    fn dearest(operations: &Operations, name: &str) -> Self {
-        let of = |functions: Vec<Evaluated<'_>>, count: fn(&Evaluated<'_>) -> Count| {
-            let function = functions.iter().find(|function| function.name == name);
-            function.map(count).unwrap_or_default()
+    /// Those of the function for `quantity` in the region that takes the most.
+    fn dearest(programs: [&Program<'_>; 2], quantity: Quantity) -> Self {
+        let of = |functions: &Functions, count: fn(&Functions, &Function) -> Count| {
+            let function = functions.get(quantity);
+            function.map_or_else(Count::default, |function| count(functions, function))
         };
-        (0..operations.regions())
-            .map(|region| Self {
-                tree: of(operations.written(region), |function| function.tree()),
-                shared: of(operations.written(region), |function| function.shared()),
-                optimised: of(operations.optimised(region), |function| function.shared()),
+        let [written, optimised] = programs.map(|program| program.dynamics.iter());
+        written
+            .zip(optimised)
+            .map(|(written, optimised)| Self {
+                tree: of(&written.functions, Functions::count_as_tree),
+                shared: of(&written.functions, Functions::count),
+                optimised: of(&optimised.functions, Functions::count),
             })
             .max_by_key(|operation| operation.shared.weighted)
             .unwrap_or_default()
@@ -201,17 +203,15 @@ fn measure(input: TokenStream) -> Result<Cost, String> {
         .filter(|_| diagnostics.is_empty())
         .and_then(|model| scheme::derive(model, &mut diagnostics));
     clock.lap(3);
-    let operations = scheme.as_ref().map(Operations::new);
+    let program = scheme.as_ref().map(Program::new);
     clock.lap(4);
-    let tokens = scheme
-        .as_ref()
-        .zip(operations.as_ref())
-        .map(|(scheme, operations)| emit::rust_of(scheme, operations));
+    let tokens = program.as_ref().map(emit::rust);
     clock.lap(5);
-    match (scheme, operations, tokens) {
-        (Some(scheme), Some(operations), Some(_)) => Ok(Cost {
-            operations: ["discrete_vector_field", "linearised"]
-                .map(|name| Operation::dearest(&operations, name)),
+    match (&scheme, &program, tokens) {
+        (Some(scheme), Some(program), Some(_)) => Ok(Cost {
+            operations: [Quantity::DiscreteVectorField, Quantity::Linearised].map(|quantity| {
+                Operation::dearest([&Program::as_written(scheme), program], quantity)
+            }),
             name: scheme.model.name.to_string(),
             states: scheme.model.states.len(),
             conserved: scheme

@@ -2,12 +2,12 @@
 //! what it claims is proved, the Discrete Multiplier Method (Wan, Bihlo & Nave 2017) derives
 //! the scheme that conserves it exactly, and the scheme becomes Rust.
 //!
-//! tokens → [`syntax`] → [`check`] → [`proofs`] → [`scheme`] → [`emit`] → tokens.
+//! tokens → [`syntax`] → [`check`] → [`proofs`] → [`scheme`] → [`program`] → [`emit`] → tokens.
 //!
 //! A stage reports all that it can check to [`diagnostics`]; the next one starts if there was
 //! nothing to report. [`compile`] is the way through all of them, [`read`] and [`explain`] stop
-//! at the scheme. Beside them stands [`invariants`], which starts from the model: what a system
-//! conserves of which only f is known.
+//! at the scheme. With the feature `explore` the module `invariants` stands beside them, which starts
+//! from the model: what a system conserves of which only f is known.
 //!
 //! # One system, stage by stage
 //!
@@ -92,8 +92,8 @@
 //!
 //! ## Model → invariants
 //!
-//! Had the conserved quantity not been known, [`invariants::find`] would have found it among the
-//! polynomials up to a degree; [`invariants::report`] writes what it finds as it is declared.
+//! Had the conserved quantity not been known, `invariants::find` would have found it among the
+//! polynomials up to a degree; `invariants::report` writes what it finds as it is declared.
 //!
 //! ```
 //! use dmm_compiler::algebra::to_text;
@@ -163,10 +163,12 @@
 //! assert_eq!(region.solvability, Solvability::Nonlinear);
 //! ```
 //!
-//! ## Scheme → operations
+//! ## Scheme → program
 //!
-//! [`emit::Operations`] lowers the expressions to what a machine does, and [`optimise`] finds
-//! cheaper ones: f^τ takes 6 operations, and f^τ with its Jacobian 7.
+//! [`program::Program`] has the functions that a machine evaluates. Their expressions are lowered
+//! to its operations, and [`program::optimise`] finds cheaper ones: f^τ takes 6 operations, and
+//! f^τ with its Jacobian 7. Of the Taylor coefficients of the solution only those of x² take a sum
+//! over the lower ones, which is written out for every order.
 //!
 //! ```
 //! # let declaration = "system Elliptic {
@@ -179,18 +181,18 @@
 //! # let tokens = declaration.parse::<proc_macro2::TokenStream>().unwrap();
 //! # let scheme = dmm_compiler::read(tokens).unwrap();
 //! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
-//! use dmm_compiler::emit::Operations;
+//! use dmm_compiler::program::series::Sums;
+//! use dmm_compiler::program::{Program, Quantity};
 //!
-//! let operations = Operations::new(&scheme);
-//! let count = |function: &str| {
-//!     let mut functions = operations.optimised(0).into_iter();
-//!     functions.find(|one| one.name == function).unwrap().shared().operations
-//! };
-//! assert_eq!(count("discrete_vector_field"), 6);
-//! assert_eq!(count("linearised"), 7);
+//! let program = Program::new(&scheme);
+//! let functions = &program.dynamics[0].functions;
+//! let count = |quantity| functions.count(functions.get(quantity).unwrap()).operations;
+//! assert_eq!(count(Quantity::DiscreteVectorField), 6);
+//! assert_eq!(count(Quantity::Linearised), 7);
+//! assert_eq!(program.dynamics[0].series.sums, Sums::Straight);
 //! ```
 //!
-//! ## Operations → Rust, scheme → listing
+//! ## Program → Rust, scheme → listing
 //!
 //! [`emit::rust`] writes the items that `pws!` expands to, and [`emit::listing`] the mathematics
 //! for people, which the documentation of these items shows as well.
@@ -207,8 +209,9 @@
 //! # let scheme = dmm_compiler::read(tokens).unwrap();
 //! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
 //! use dmm_compiler::emit;
+//! use dmm_compiler::program::Program;
 //!
-//! let code = emit::rust(&scheme).to_string();
+//! let code = emit::rust(&Program::new(&scheme)).to_string();
 //! assert!(code.contains("pub a : f64"));
 //! assert!(code.contains("fn discrete_vector_field"));
 //! let listing = emit::listing(&scheme);
@@ -221,9 +224,10 @@ pub mod algebra;
 pub mod check;
 pub mod diagnostics;
 pub mod emit;
+#[cfg(feature = "explore")]
 pub mod invariants;
 pub mod model;
-pub mod optimise;
+pub mod program;
 pub mod proofs;
 pub mod scheme;
 pub mod stub;
@@ -233,6 +237,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use diagnostics::Diagnostics;
+use program::Program;
 use scheme::Scheme;
 use syntax::Declaration;
 
@@ -245,7 +250,7 @@ pub fn compile(input: TokenStream) -> TokenStream {
     };
     let stub = stub::stub(&declaration);
     match derive(declaration, &mut diagnostics) {
-        Some(scheme) => emit::rust(&scheme),
+        Some(scheme) => emit::rust(&Program::new(&scheme)),
         None => {
             let errors = diagnostics.into_compile_errors();
             quote!(#errors #stub)

@@ -235,6 +235,12 @@ impl Model {
     pub fn state_names(&self) -> Vec<Name> {
         self.states.iter().map(|state| state.name.clone()).collect()
     }
+
+    /// The variables of the states, then those of the parameters.
+    pub fn variables(&self) -> impl Iterator<Item = &Name> {
+        let states = self.states.iter().map(|state| &state.name);
+        states.chain(self.parameters.iter().map(|parameter| &parameter.name))
+    }
 }
 
 /// A region's name in `snake_case` as `CamelCase`, the variant that it becomes.

@@ -96,7 +96,7 @@ fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenS
             fn parameter_mut(&mut self, _: usize) -> ::core::option::Option<&mut f64> {
                 ::core::option::Option::None
             }
-            fn visit<Visitor: ::dmm_runtime::support::FlowVisitor<#count>>(
+            fn visit<Visitor: ::dmm_runtime::support::DynamicsVisitor<#count>>(
                 &self,
                 _: #region,
                 _: Visitor,
@@ -105,7 +105,7 @@ fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenS
             }
             fn visit_with<
                 Scalar: ::dmm_runtime::support::Scalar,
-                Visitor: ::dmm_runtime::support::FlowVisitor<#count, Scalar>,
+                Visitor: ::dmm_runtime::support::DynamicsVisitor<#count, Scalar>,
             >(
                 _: #region,
                 _: impl ::core::ops::Fn(usize) -> Scalar,

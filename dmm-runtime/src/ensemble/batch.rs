@@ -5,21 +5,21 @@
 //! that cross an interface in their next step, of those that have just entered a region at an
 //! interface. A lane that leaves goes to its next queue and another trajectory takes its place.
 //! What is rare, a step that comes close to an interface without a clear crossing, is made by
-//! the scalar scheme.
+//! the scalar method.
 
 use super::kernel::{Job, Kernel, LONGEST, ORDER, Settings};
 use super::register::{Leave, Register, WIDTH, Wide};
 use super::trajectory::Trajectory;
 use super::vectorised::{Vectorised, Work};
 use super::{Member, Outcome};
-use crate::end::Halted;
+use crate::arithmetic::Scalar;
+use crate::arithmetic::Time;
+use crate::contract::System;
+use crate::driver::{index_of, neighbour};
 use crate::error::Error;
 use crate::events::ends::Decay;
-use crate::scalar::Scalar;
-use crate::scheme::Taylor;
-use crate::system::System;
-use crate::time::Time;
-use crate::transition::neighbour;
+use crate::method::taylor::Taylor;
+use crate::output::Halted;
 
 /// What a queue waits for.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +75,7 @@ impl Queues {
 /// A batch under way.
 pub(super) struct Batch<'a, Sys: System<N>, const N: usize> {
     vectorised: Vectorised,
-    scheme: &'a Taylor,
+    method: &'a Taylor,
     settings: Settings,
     trajectories: Vec<Trajectory<Sys, N>>,
     /// The parameters of each trajectory.
@@ -94,21 +94,15 @@ pub(super) struct Batch<'a, Sys: System<N>, const N: usize> {
 /// Integrates members until `t_end`.
 pub(super) fn run<Sys: System<N>, const N: usize>(
     vectorised: Vectorised,
-    scheme: &Taylor,
+    method: &Taylor,
     members: Vec<Member<Sys, N>>,
     t_end: f64,
 ) -> Vec<Outcome<Sys::Region, N>> {
-    let mut batch = Batch::new(vectorised, scheme, members, t_end);
+    let mut batch = Batch::new(vectorised, method, members, t_end);
     while let Some(purpose) = batch.queues.longest() {
         batch.serve(purpose);
     }
     batch.outcomes.into_iter().flatten().collect()
-}
-
-/// The index of a region.
-fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
-    let is_it = |candidate: &Sys::Region| *candidate == region;
-    Sys::REGIONS.iter().position(is_it).unwrap_or_default()
 }
 
 /// By region and interface, the region on the other side.
@@ -126,20 +120,20 @@ fn neighbours<Sys: System<N>, const N: usize>() -> Vec<Option<(usize, Sys::Regio
 impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
     fn new(
         vectorised: Vectorised,
-        scheme: &'a Taylor,
+        method: &'a Taylor,
         members: Vec<Member<Sys, N>>,
         t_end: f64,
     ) -> Self {
         let count = members.len();
-        let fraction = scheme.fraction_at(ORDER).min(LONGEST);
+        let fraction = method.fraction_at(ORDER).min(LONGEST);
         let mut batch = Self {
             vectorised,
-            scheme,
+            method,
             settings: Settings {
                 end: t_end,
                 fraction,
                 decay: Decay::new(fraction),
-                corrects: scheme.corrects_level(),
+                corrects: method.corrects_level(),
             },
             trajectories: Vec::with_capacity(count),
             parameters: Vec::with_capacity(count * Sys::PARAMETERS.len()),
@@ -151,12 +145,12 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             lanes: vec![Wide::from_f64(0.0); Sys::PARAMETERS.len()],
         };
         for (index, member) in members.into_iter().enumerate() {
-            match Trajectory::new(*scheme, member, t_end) {
+            match Trajectory::new(*method, member, t_end) {
                 Err(halted) => batch.outcomes[index] = Some(Err(halted)),
                 Ok(trajectory) => {
                     let number = batch.trajectories.len();
                     let region = index_of::<Sys, N>(trajectory.region);
-                    let queue = batch.queues.of(region, Job::Enter(trajectory.fresh));
+                    let queue = batch.queues.of(region, Job::Enter(trajectory.active));
                     queue.push(number);
                     batch.parameters.extend(trajectory.system.parameters());
                     batch.trajectories.push(trajectory);
@@ -304,25 +298,25 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         }
     }
 
-    /// Makes a step by the scalar scheme.
+    /// Makes a step by the scalar method.
     fn step_alone(&mut self, number: usize) {
         let end = self.settings.end;
         let trajectory = &mut self.trajectories[number];
         let until = trajectory.time.value + trajectory.tau;
         // lanes have no unit of time but 1
-        let returns = trajectory.progress.unit == 1.0;
+        let returns = trajectory.memory.unit == 1.0;
         let until = match returns && until > trajectory.time.value && until < end {
             true => until,
             false => end,
         };
-        match trajectory.go_on(self.scheme, until) {
+        match trajectory.go_on(self.method, until) {
             Err(error) => self.finish(number, Err(error)),
             Ok(()) if trajectory.time == Time::new(end) => self.finish(number, Ok(())),
             Ok(()) => {
                 let region = index_of::<Sys, N>(trajectory.region);
-                let job = match trajectory.fresh {
+                let job = match trajectory.active {
                     None => Job::Step,
-                    fresh => Job::Enter(fresh),
+                    active => Job::Enter(active),
                 };
                 self.queues.of(region, job).push(number);
             }

@@ -3,8 +3,8 @@
 use super::kernel::{Run, is_finite};
 use super::level::{Place, vector};
 use super::register::Wide;
-use crate::scalar::Scalar;
-use crate::system::{Boundary, Flow, Vector};
+use crate::arithmetic::Scalar;
+use crate::contract::{Dynamics, Guards, Vector};
 
 /// Corrections of a crossing.
 const MOST_CORRECTIONS: u32 = 12;
@@ -20,7 +20,7 @@ pub(super) struct Approach<const N: usize> {
     pub(super) rate: Wide,
 }
 
-impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
+impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// Moves every lane to the interface: t̂* and x̂* such that g = 0 and ψ keeps its level.
     #[inline(always)]
     pub(super) fn cross(&mut self, interface: usize) {
@@ -48,7 +48,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         for _ in 0..MOST_CORRECTIONS {
             let approach = self.approach(interface, &place);
             let off = match self.settings.corrects {
-                true => self.register.correction(self.flow, &place),
+                true => self.register.correction(self.dynamics, &place),
                 false => Vector::from_element(n(0.0)),
             };
             let value = (0..N).fold(approach.value, |sum, i| {
@@ -78,10 +78,10 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// g at a place, all of it.
     #[inline(always)]
     pub(super) fn approach(&self, interface: usize, place: &Place<N>) -> Approach<N> {
-        let boundary = self.flow.boundary();
-        let value = boundary.switching_function(interface, place.t, &place.x);
-        let (by_time, gradient) = boundary.switching_gradient(interface, place.t, &place.x);
-        let field = self.flow.vector_field(place.t, &place.x);
+        let guards = self.dynamics.guards();
+        let value = guards.switching_function(interface, place.t, &place.x);
+        let (by_time, gradient) = guards.switching_gradient(interface, place.t, &place.x);
+        let field = self.dynamics.vector_field(place.t, &place.x);
         let value = by_time.fused(place.t_remainder, value);
         Approach {
             value: (0..N).fold(value, |sum, i| gradient[i].fused(place.remainder[i], sum)),

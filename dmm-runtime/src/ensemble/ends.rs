@@ -2,10 +2,10 @@
 //! ends and its first coefficients; the mathematics is that of [`crate::events::ends`].
 
 use super::register::{WIDTH, Wide};
+use crate::arithmetic::Scalar;
+use crate::arithmetic::lanes::Mask;
 use crate::events::ends::Decay;
-use crate::lanes::Mask;
-use crate::scalar::Scalar;
-use crate::series::jet::FIRST;
+use crate::expansion::jet::FIRST;
 
 /// g this many rounding errors of its terms away from zero is not distinguished from it.
 const NOISE: f64 = 16.0;
@@ -22,14 +22,14 @@ pub(super) struct Course {
 
 /// What is certain about steps `tau`, with the first coefficients of g, its value and
 /// slope at the end, all positive in the region. The root at the start does not count if the
-/// lanes are `fresh` from it.
+/// lanes are `active` from it.
 #[inline(always)]
 pub(super) fn course(
     c: &[Wide; FIRST],
     (b3, slope): (Wide, Wide),
     tau: Wide,
     decay: Decay,
-    fresh: bool,
+    active: bool,
 ) -> Course {
     let n = Wide::from_f64;
     let (third, square) = (tau * n(1.0 / 3.0), tau * tau);
@@ -48,7 +48,7 @@ pub(super) fn course(
         .fused(others, known)
         .fused(n(1.0 / 12.0), noise);
     let zero = n(0.0);
-    let inside = match fresh {
+    let inside = match active {
         true => Mask::all(true),
         false => b0.above(zero),
     };

@@ -5,14 +5,14 @@ use std::hint::black_box;
 use super::ends::course;
 use super::level::Place;
 use super::register::{Register, WIDTH, Wide};
+use crate::arithmetic::Scalar;
+use crate::arithmetic::error_free::two_sum;
+use crate::arithmetic::lanes::Mask;
+use crate::contract::{Dynamics, DynamicsVisitor, Guards, Vector};
 use crate::events::ends::Decay;
-use crate::lanes::Mask;
-use crate::scalar::Scalar;
-use crate::series::jet::{BoundaryUnrolled, expand, first_switching};
-use crate::series::polynomial::increment;
-use crate::series::radius::{FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE};
-use crate::system::{Boundary, Flow, FlowVisitor, Vector};
-use crate::time::two_sum;
+use crate::expansion::jet::{GuardsUnrolled, expand, first_switching};
+use crate::expansion::polynomial::increment;
+use crate::expansion::radius::{FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE};
 
 /// Halvings of a step of which the ends do not tell enough.
 const MOST_HALVINGS: u32 = 2;
@@ -51,16 +51,16 @@ pub(super) struct Kernel<'a, const N: usize> {
     pub(super) job: Job,
 }
 
-impl<const N: usize> FlowVisitor<N, Wide> for Kernel<'_, N> {
+impl<const N: usize> DynamicsVisitor<N, Wide> for Kernel<'_, N> {
     type Output = ();
 
     #[inline(always)]
-    fn visit<const M: usize, F: Flow<Wide, N, M>>(self, flow: &F) {
+    fn visit<const M: usize, F: Dynamics<Wide, N, M>>(self, dynamics: &F) {
         let mut series = F::series::<COEFFICIENTS>();
         let mut run = Run::<F, N, M> {
             register: self.register,
             settings: self.settings,
-            flow,
+            dynamics,
             // in memory, where the compiler finds what belongs into one register
             series: black_box(&mut series),
         };
@@ -81,11 +81,11 @@ impl<const N: usize> FlowVisitor<N, Wide> for Kernel<'_, N> {
     }
 }
 
-/// A kernel in the region of a flow.
-pub(super) struct Run<'a, F: Flow<Wide, N, M>, const N: usize, const M: usize> {
+/// A kernel in a mode.
+pub(super) struct Run<'a, F: Dynamics<Wide, N, M>, const N: usize, const M: usize> {
     pub(super) register: &'a mut Register<N>,
     pub(super) settings: &'a Settings,
-    pub(super) flow: &'a F,
+    pub(super) dynamics: &'a F,
     series: &'a mut F::Series<COEFFICIENTS>,
 }
 
@@ -141,11 +141,11 @@ pub(super) fn is_finite<const N: usize>(place: &Place<N>) -> Mask<WIDTH> {
     sum.equals(zero)
 }
 
-impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
+impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The interfaces that bound the region, with its sides.
     #[inline(always)]
-    fn sides() -> &'static [(usize, crate::system::Side)] {
-        <F::Boundary as Boundary<Wide, N>>::SIDES
+    fn sides() -> &'static [(usize, crate::contract::Side)] {
+        <F::Guards as Guards<Wide, N>>::SIDES
     }
 
     /// The sign of g in the region.
@@ -159,7 +159,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The level of a region that is entered.
     #[inline(always)]
     fn enter(&mut self, interface: Option<usize>) -> Entry {
-        self.register.enter_level(self.flow);
+        self.register.enter_level(self.dynamics);
         let barred = interface.map(|interface| {
             let rate = self.approach(interface, &self.register.place()).rate;
             let inwards = Wide::from_f64(Self::sign(interface)) * rate;
@@ -177,11 +177,11 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     fn expand(&mut self) {
         let Register { t, x, .. } = &*self.register;
         let series = &mut *self.series;
-        expand::<_, F, F::Unrolled, N, M, _>(self.flow, (*t, x), series, COEFFICIENTS, 1.0);
+        expand::<_, F, F::Unrolled, N, M, _>(self.dynamics, (*t, x), series, COEFFICIENTS, 1.0);
     }
 
     /// The steps that the tolerance allows, and where coefficients may have left the range of
-    /// doubles; see [`crate::series::jet::Jet::step`].
+    /// doubles; see [`crate::expansion::jet::Jet::step`].
     #[inline(always)]
     fn wanted(&self, enters: bool) -> (Wide, Mask<WIDTH>) {
         let zero = Wide::from_f64(0.0);
@@ -280,7 +280,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             size = near.select(n(0.5) * size, size);
         };
         if self.settings.corrects {
-            self.register.correct(self.flow, &mut place);
+            self.register.correct(self.dynamics, &mut place);
         } else {
             place.normalise();
         }
@@ -306,7 +306,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
 
     /// What the lanes meet in steps over `tau` that end at a place.
     #[inline(always)]
-    fn look_ahead(&self, tau: Wide, place: &Place<N>, fresh: Option<usize>) -> Ahead {
+    fn look_ahead(&self, tau: Wide, place: &Place<N>, active: Option<usize>) -> Ahead {
         let none = Mask::all(false);
         let mut ahead = Ahead {
             hard: none,
@@ -317,21 +317,24 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         if Self::sides().is_empty() {
             return ahead;
         }
-        let field = self.flow.vector_field(place.t, &place.x);
+        let field = self.dynamics.vector_field(place.t, &place.x);
         let (t, solution) = (self.register.t, self.series.as_ref());
-        let first = first_switching::<_, F, BoundaryUnrolled<_, F, N, M>, N, M, COEFFICIENTS>(
-            self.flow, t, solution, 1.0,
+        let first = first_switching::<_, F, GuardsUnrolled<_, F, N, M>, N, M, COEFFICIENTS>(
+            self.dynamics,
+            t,
+            solution,
+            1.0,
         );
         for &(interface, side) in Self::sides() {
             let sign = Wide::from_f64(side.sign());
             let series = first.as_ref()[interface].map(|c| sign * c);
-            let boundary = self.flow.boundary();
-            let value = boundary.switching_function(interface, place.t, &place.x);
-            let (by_time, gradient) = boundary.switching_gradient(interface, place.t, &place.x);
+            let guards = self.dynamics.guards();
+            let value = guards.switching_function(interface, place.t, &place.x);
+            let (by_time, gradient) = guards.switching_gradient(interface, place.t, &place.x);
             let slope = (0..N).fold(by_time, |sum, i| gradient[i].fused(field[i], sum));
             let end = (sign * value, sign * slope);
-            let fresh = fresh == Some(interface);
-            let seen = course(&series, end, tau, self.settings.decay, fresh);
+            let active = active == Some(interface);
+            let seen = course(&series, end, tau, self.settings.decay, active);
             ahead.hard = ahead.hard.or(seen.free.or(seen.falls).not());
             // one crossing or the other may come first
             ahead.hard = ahead.hard.or(seen.falls.and(ahead.crosses));
@@ -344,7 +347,7 @@ impl<F: Flow<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     }
 }
 
-/// m^(−1/k) for m > 0 in every lane; see [`crate::series::polynomial::inverse_root`]. Half of
+/// m^(−1/k) for m > 0 in every lane; see [`crate::expansion::polynomial::inverse_root`]. Half of
 /// the bits are enough for a step, and are multiplied by one instruction.
 #[inline(always)]
 fn inverse_root(m: Wide, k: usize) -> Wide {

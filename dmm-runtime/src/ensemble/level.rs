@@ -2,11 +2,11 @@
 //! [`crate::level`].
 
 use super::register::{Register, WIDTH, Wide};
-use crate::lanes::Mask;
-use crate::minimal_norm::MinimalNorm;
-use crate::scalar::Scalar;
-use crate::system::{Flow, Matrix, Vector};
-use crate::time::two_sum;
+use crate::arithmetic::MinimalNorm;
+use crate::arithmetic::Scalar;
+use crate::arithmetic::error_free::two_sum;
+use crate::arithmetic::lanes::Mask;
+use crate::contract::{Dynamics, Matrix, Vector};
 
 /// σ
 const SLOPE: f64 = 1.0 / 16.0;
@@ -64,11 +64,14 @@ impl<const N: usize> Place<N> {
 
     /// The remainder as far as ψ is concerned with that of the time.
     #[inline(always)]
-    fn whole_remainder<const M: usize, F: Flow<Wide, N, M>>(&self, flow: &F) -> Vector<Wide, N> {
+    fn whole_remainder<const M: usize, F: Dynamics<Wide, N, M>>(
+        &self,
+        dynamics: &F,
+    ) -> Vector<Wide, N> {
         if F::AUTONOMOUS {
             return self.remainder;
         }
-        let field = flow.vector_field(self.t, &self.x);
+        let field = dynamics.vector_field(self.t, &self.x);
         vector(|i| self.remainder[i] - field[i] * self.t_remainder)
     }
 }
@@ -76,11 +79,11 @@ impl<const N: usize> Place<N> {
 impl<const N: usize> Register<N> {
     /// The level at the entry into a region.
     #[inline(always)]
-    pub(super) fn enter_level<const M: usize, F: Flow<Wide, N, M>>(&mut self, flow: &F) {
+    pub(super) fn enter_level<const M: usize, F: Dynamics<Wide, N, M>>(&mut self, dynamics: &F) {
         let place = self.place();
-        let (psi, multiplier) = flow.multiplier(place.t, &place.x);
-        let size = flow.conserved_size(place.t, &place.x);
-        let remainder = place.whole_remainder(flow);
+        let (psi, multiplier) = dynamics.multiplier(place.t, &place.x);
+        let size = dynamics.conserved_size(place.t, &place.x);
+        let remainder = place.whole_remainder(dynamics);
         let square = (0..N).fold(Wide::from_f64(f64::MIN_POSITIVE), |sum, i| {
             place.x[i].fused(place.x[i], sum)
         });
@@ -125,17 +128,17 @@ impl<const N: usize> Register<N> {
 
     /// The displacement towards the level.
     #[inline(always)]
-    pub(super) fn correction<const M: usize, F: Flow<Wide, N, M>>(
+    pub(super) fn correction<const M: usize, F: Dynamics<Wide, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         place: &Place<N>,
     ) -> Vector<Wide, N> {
         if M == 0 {
             return Vector::from_element(Wide::from_f64(0.0));
         }
         let weights = self.weights(place);
-        let (psi, multiplier) = flow.multiplier(place.t, &place.x);
-        let remainder = place.whole_remainder(flow);
+        let (psi, multiplier) = dynamics.multiplier(place.t, &place.x);
+        let remainder = place.whole_remainder(dynamics);
         let [reference, damping, noise] = &self.level;
         let residual: Vector<Wide, M> = vector(|m| {
             (0..N).fold(psi[m] - reference[m], |sum, i| {
@@ -161,13 +164,13 @@ impl<const N: usize> Register<N> {
 
     /// Puts a place back on the level.
     #[inline(always)]
-    pub(super) fn correct<const M: usize, F: Flow<Wide, N, M>>(
+    pub(super) fn correct<const M: usize, F: Dynamics<Wide, N, M>>(
         &self,
-        flow: &F,
+        dynamics: &F,
         place: &mut Place<N>,
     ) {
         for _ in 0..MOST {
-            let displacement = self.correction(flow, place);
+            let displacement = self.correction(dynamics, place);
             for i in 0..N {
                 place.remainder[i] += displacement[i];
             }

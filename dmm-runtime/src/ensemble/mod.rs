@@ -16,12 +16,12 @@ mod vectorised;
 use std::ops::ControlFlow;
 use std::thread;
 
-use crate::end::{End, Halted};
-use crate::integrator::{InitialValueProblem, Integrator};
-use crate::observer::Observer;
-use crate::scheme::Scheme;
-use crate::system::{Boundary, Flow, FlowVisitor, System, Vector};
-use crate::transition::NewtonLocator;
+use crate::contract::{Dynamics, DynamicsVisitor, Guards, System, Vector};
+use crate::driver::{InitialValueProblem, Integrator};
+use crate::method::Method;
+use crate::method::taylor::Taylor;
+use crate::output::Observer;
+use crate::output::{End, Halted};
 use pool::Pool;
 use register::WIDTH;
 use vectorised::Vectorised;
@@ -50,11 +50,8 @@ impl<Sys: System<N>, const N: usize> Member<Sys, N> {
         }
     }
 
-    fn problem<Sch: Scheme>(
-        &self,
-        scheme: Sch,
-    ) -> InitialValueProblem<'_, Sys, Sch, NewtonLocator, N> {
-        let problem = Integrator::new(&self.system, scheme).initial(self.t0, self.x0);
+    fn problem<Met: Method>(&self, method: Met) -> InitialValueProblem<'_, Sys, Met, N> {
+        let problem = Integrator::new(&self.system, method).initial(self.t0, self.x0);
         match self.region {
             Some(region) => problem.region(region),
             None => problem,
@@ -75,7 +72,7 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// registers, each with steps and transitions of its own, where the processor has what that takes
 /// (x86-64 with AVX2 and FMA, aarch64; found out when the program runs). They are of order 18 at
 /// every tolerance; results are as accurate as those of an [`Integrator`], but not the same to
-/// the last bits. The other schemes, and systems with a [`Guard`](crate::Guard), are integrated
+/// the last bits. The other schemes, and systems with a [`Condition`](crate::Condition), are integrated
 /// one trajectory at a time, on all cores.
 ///
 /// ```
@@ -103,8 +100,8 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// assert!(outcomes[3].is_err());
 /// ```
 #[derive(Clone, Debug)]
-pub struct Ensemble<Sch> {
-    scheme: Sch,
+pub struct Ensemble<Met> {
+    method: Met,
     threads: Option<usize>,
     lanes: bool,
 }
@@ -116,25 +113,25 @@ fn follow_state<Sys: System<N>, const N: usize>() -> bool {
     Sys::REGIONS.iter().all(follows)
 }
 
-/// See [`Boundary::FOLLOWS_STATE`].
+/// See [`Guards::FOLLOWS_STATE`].
 struct FollowsState;
 
-impl<const N: usize> FlowVisitor<N> for FollowsState {
+impl<const N: usize> DynamicsVisitor<N> for FollowsState {
     type Output = bool;
 
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, _: &F) -> bool {
-        <F::Boundary as Boundary<f64, N>>::FOLLOWS_STATE
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, _: &F) -> bool {
+        <F::Guards as Guards<f64, N>>::FOLLOWS_STATE
     }
 }
 
 /// Of larger systems the coefficients of several trajectories do not fit the fastest memory.
 const MOST_STATES: usize = 8;
 
-impl<Sch: Scheme> Ensemble<Sch> {
+impl<Met: Method> Ensemble<Met> {
     /// An ensemble that is integrated by `scheme`.
-    pub fn new(scheme: Sch) -> Self {
+    pub fn new(method: Met) -> Self {
         Self {
-            scheme,
+            method,
             threads: None,
             lanes: true,
         }
@@ -165,10 +162,14 @@ impl<Sch: Scheme> Ensemble<Sch> {
         sink: impl FnMut(usize, Outcome<Sys::Region, N>) -> ControlFlow<()>,
     ) -> usize {
         let members = members.into_iter();
-        let may = self.lanes && N <= MOST_STATES && Sys::GUARDS.is_empty();
+        let may = self.lanes && N <= MOST_STATES && Sys::CONDITIONS.is_empty();
         let in_lanes = may && follow_state::<Sys, N>();
-        let vectorised = match (in_lanes, self.scheme.in_lanes()) {
-            (true, Some(taylor)) => Vectorised::of::<Sys, N>().map(|how| (how, taylor)),
+        let vectorised = match (in_lanes, self.method.in_lanes()) {
+            (true, Some(settings)) => {
+                let taylor = Taylor::tolerance(settings.tolerance);
+                let taylor = taylor.level_correction(settings.level_correction);
+                Vectorised::of::<Sys, N>().map(|how| (how, taylor))
+            }
             _ => None,
         };
         let least = vectorised.map_or(1, |_| WIDTH);
@@ -210,7 +211,7 @@ impl<Sch: Scheme> Ensemble<Sch> {
     {
         let members = members.into_iter();
         let observe = |(member, mut observer): (Member<Sys, N>, Obs)| {
-            let problem = member.problem(self.scheme.clone());
+            let problem = member.problem(self.method.clone());
             let outcome = problem.observe_until(t_end, &mut observer);
             (observer, outcome)
         };
@@ -227,7 +228,7 @@ impl<Sch: Scheme> Ensemble<Sch> {
         t_end: f64,
     ) -> Vec<Outcome<Sys::Region, N>> {
         let one = |member: Member<Sys, N>| {
-            let problem = member.problem(self.scheme.clone());
+            let problem = member.problem(self.method.clone());
             problem.observe_until(t_end, &mut ())
         };
         batch.into_iter().map(one).collect()

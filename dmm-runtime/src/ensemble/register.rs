@@ -1,8 +1,8 @@
 //! The trajectories in the lanes of a register.
 
-use crate::lanes::{Lanes, Mask};
-use crate::scalar::Scalar;
-use crate::system::Vector;
+use crate::arithmetic::Scalar;
+use crate::arithmetic::lanes::{Lanes, Mask};
+use crate::contract::Vector;
 
 /// Trajectories that are stepped together: the vectors of four doubles that most processors
 /// have.

@@ -1,19 +1,14 @@
 //! A trajectory of an ensemble, in a lane or by itself.
 
-use std::ops::ControlFlow;
-
 use super::Member;
 use super::register::Register;
-use crate::end::{End, Halted};
-use crate::error::Error;
-use crate::observer::Point;
-use crate::scheme::{Drive, Taylor};
-use crate::state::State;
-use crate::statistics::Statistics;
-use crate::system::{System, Vector};
-use crate::time::Time;
-use crate::transition::NewtonLocator;
-use crate::walk::{Accumulation, Walk, enter, run_segment};
+use crate::arithmetic::{State, Time};
+use crate::contract::{System, Vector};
+use crate::driver::{Accumulation, Run, enter, index_of};
+use crate::error::{Error, ErrorKind};
+use crate::method::taylor::{self, Taylor};
+use crate::method::{Active, Cursor, Ended, Statistics};
+use crate::output::{End, Halted, Point};
 
 /// A crossing that is still to be judged.
 #[derive(Clone, Copy, Debug)]
@@ -32,10 +27,10 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
     pub(super) state: State<N>,
     pub(super) region: Sys::Region,
     /// The interface that it is on.
-    pub(super) fresh: Option<usize>,
+    pub(super) active: Option<usize>,
     /// How it came there, until the region entered has been found to take it.
     pub(super) crossing: Option<Crossing<Sys::Region>>,
-    pub(super) progress: <Taylor as Drive>::Progress,
+    pub(super) memory: taylor::Memory,
     pub(super) accumulation: Accumulation,
     pub(super) statistics: Statistics,
     /// ψ_ref, D and the noise of ψ in the region; see [`crate::level`].
@@ -51,19 +46,19 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
 impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     /// The start of a member.
     pub(super) fn new(
-        scheme: Taylor,
+        method: Taylor,
         member: Member<Sys, N>,
         t_end: f64,
     ) -> Result<Self, Halted<Sys::Region, N>> {
-        let problem = member.problem(scheme);
+        let problem = member.problem(method);
         let start = problem.start(t_end).map_err(Halted::at_start)?;
         Ok(Self {
             time: Time::new(member.t0),
             state: State::new(member.x0),
             region: start.region,
-            fresh: start.interface,
+            active: start.interface,
             crossing: None,
-            progress: problem.progress(t_end),
+            memory: problem.memory(t_end),
             accumulation: Accumulation::new(Time::new(member.t0)),
             statistics: Statistics::default(),
             level: [Vector::zeros(); 3],
@@ -95,8 +90,9 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         other: Option<(usize, Sys::Region)>,
     ) -> Result<usize, Error> {
         let (time, x) = (self.time, &self.state.x);
-        self.accumulation.count::<Sys, N>(interface, time, x)?;
-        self.fresh = Some(interface);
+        self.accumulation
+            .count::<Sys, N>((interface, self.region), time, x)?;
+        self.active = Some(interface);
         self.crossing = Some(Crossing {
             from: self.region,
             rate_from: self.rate,
@@ -111,22 +107,20 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     fn no_region(&self) -> Error {
-        Error::NoRegion {
-            t: self.time.value,
-            x: self.state.x.iter().copied().collect(),
-        }
+        let region = Sys::region_name(self.region);
+        ErrorKind::NoRegion.at(self.time.value, self.state.x.as_slice(), region)
     }
 
     /// The region entered has taken it.
     pub(super) fn arrived(&mut self) {
         self.statistics.transitions += u64::from(self.crossing.is_some());
         self.crossing = None;
-        self.fresh = None;
+        self.active = None;
     }
 
     /// Judges the crossing that brought it here, if that is still to be done.
     fn judge(&mut self) -> Result<(), Error> {
-        if let (Some(crossing), Some(interface)) = (self.crossing, self.fresh) {
+        if let (Some(crossing), Some(interface)) = (self.crossing, self.active) {
             let left = (crossing.from, crossing.rate_from);
             let entered = enter(&self.system, left, interface, self.time, &self.state);
             if let Err(error) = entered {
@@ -139,31 +133,32 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         Ok(())
     }
 
-    /// Integrates until `until` or the first transition by the scalar scheme.
-    pub(super) fn go_on(&mut self, scheme: &Taylor, until: f64) -> Result<(), Error> {
+    /// Integrates until `until` or the first transition by the scalar method.
+    pub(super) fn go_on(&mut self, method: &Taylor, until: f64) -> Result<(), Error> {
         self.judge()?;
-        let end = self.progress.end;
-        self.progress.end = until;
-        let mut walk = Walk {
-            system: &self.system,
-            scheme,
-            locator: &NewtonLocator,
-            // as of a run that nobody observes, whose code there is
-            observer: &mut (),
-            progress: self.progress,
-            time: self.time,
-            state: self.state,
+        let active = Active::new(self.active.take());
+        let mode = index_of::<Sys, N>(self.region);
+        let mut run = Run::<Sys, Taylor, N> {
+            cursor: Cursor::new(self.time, self.state, mode, active),
             region: self.region,
-            fresh: self.fresh,
+            memory: self.memory,
             statistics: self.statistics,
+            accumulation: self.accumulation,
         };
-        let result = run_segment(&mut walk, &mut self.accumulation);
-        (self.time, self.state, self.region) = (walk.time, walk.state, walk.region);
-        (self.progress, self.statistics) = (walk.progress, walk.statistics);
-        let crossed = matches!(result, Ok(ControlFlow::Continue(())));
-        self.fresh = walk.fresh.filter(|_| crossed);
-        self.progress.end = end;
-        result.map(drop)
+        // as of a run that is not observed, whose code there is
+        let ended = run.segment(&self.system, method, until, &mut ());
+        let active = ended.and_then(|ended| match ended {
+            Ended::AtGuard { guard, rate } => {
+                run.next_mode(&self.system, guard, rate)?;
+                Ok(Some(guard))
+            }
+            Ended::Finished | Ended::Stopped => Ok(None),
+        });
+        (self.time, self.state) = (run.cursor.time, run.cursor.state);
+        (self.region, self.memory) = (run.region, run.memory);
+        (self.statistics, self.accumulation) = (run.statistics, run.accumulation);
+        self.active = active?;
+        Ok(())
     }
 }
 
@@ -180,7 +175,7 @@ impl<const N: usize> Register<N> {
         }
         self.t.0[lane] = from.time.value;
         self.t_remainder.0[lane] = from.time.remainder;
-        self.before.0[lane] = from.progress.step;
+        self.before.0[lane] = from.memory.step;
         self.elapsed.0[lane] = from.elapsed;
         self.tau.0[lane] = from.tau;
         self.steps.0[lane] = 0.0;
@@ -208,7 +203,7 @@ impl<const N: usize> Register<N> {
         }
         to.time.value = self.t.0[lane];
         to.time.remainder = self.t_remainder.0[lane];
-        to.progress.step = self.before.0[lane];
+        to.memory.step = self.before.0[lane];
         to.elapsed = self.elapsed.0[lane];
         to.tau = self.tau.0[lane];
         to.rate = self.rate.0[lane];

@@ -5,7 +5,7 @@
 //! since 2013 (AVX2 and FMA) besides, and used where they run on one. [`pulp`] makes that safe.
 
 use super::kernel::Kernel;
-use crate::system::System;
+use crate::contract::System;
 
 /// A kernel in a region.
 pub(super) struct Work<'a, Sys: System<N>, const N: usize> {

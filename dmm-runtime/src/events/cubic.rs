@@ -14,7 +14,7 @@
 //! Bernstein polynomials on that part but the first). After it g falls if the coefficients do by
 //! (1 − p) C/15 each, p being the part before the split.
 
-use crate::scalar::Scalar;
+use crate::arithmetic::Scalar;
 
 /// g and dg/dt at a point, positive inside the region.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,7 +25,7 @@ pub(crate) struct Reading {
 
 /// How far g may be from the cubic.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Doubt {
+pub(crate) struct Bounds {
     /// C
     pub(crate) truncation: f64,
     /// The rounding error of g.
@@ -74,49 +74,50 @@ impl Cubic {
         }
     }
 
-    /// What is certain about the step. It is `fresh` if it starts on the interface; that root does
+    /// What is certain about the step. The guard `is_active` if the step starts on it; that root does
     /// not count.
     #[inline(always)]
-    pub(crate) fn course(&self, doubt: Doubt, fresh: bool) -> Course {
+    pub(crate) fn course(&self, bounds: Bounds, is_active: bool) -> Course {
         let [b0, b1, b2, b3] = self.coefficients;
-        let rest = doubt.truncation.fused(1.0 / 12.0, doubt.noise);
-        let starts_inside = b0 > doubt.ends;
-        if b1 > rest && b2 > rest && b3 > doubt.ends && (starts_inside || fresh) {
+        let rest = bounds.truncation.fused(1.0 / 12.0, bounds.noise);
+        let starts_inside = b0 > bounds.ends;
+        if b1 > rest && b2 > rest && b3 > bounds.ends && (starts_inside || is_active) {
             return Course::Free;
         }
         let slowest = (b0 - b1).min(b1 - b2).min(b2 - b3);
-        if starts_inside && b3 <= -doubt.ends && slowest > rest + doubt.noise {
+        if starts_inside && b3 <= -bounds.ends && slowest > rest + bounds.noise {
             return Course::Falls {
                 from: 0.0,
                 at: fall(self.start, self.end, self.tau),
             };
         }
-        match starts_inside || fresh {
-            true => self.course_of_parts(doubt),
-            false => Course::Unknown,
+        if starts_inside || is_active {
+            self.course_of_parts(bounds)
+        } else {
+            Course::Unknown
         }
     }
 
     /// The same on both sides of a place in between.
     #[inline(never)]
-    fn course_of_parts(&self, doubt: Doubt) -> Course {
+    fn course_of_parts(&self, bounds: Bounds) -> Course {
         let [b0, b1, b2, b3] = self.coefficients;
-        let off = doubt.truncation * (1.0 / 15.0);
+        let off = bounds.truncation * (1.0 / 15.0);
         for at in [0.75, 0.5, 0.25] {
             let between = |a: f64, b: f64| (b - a).fused(at, a);
             let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
             let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
             let split = between(left_2, right_1);
-            let rest = off + doubt.noise;
+            let rest = off + bounds.noise;
             if left_1.min(left_2).min(split) <= rest {
                 continue;
             }
-            if right_1.min(right_2) > rest && b3 > doubt.ends {
+            if right_1.min(right_2) > rest && b3 > bounds.ends {
                 return Course::Free;
             }
             let after = 1.0 - at;
             let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
-            if b3 <= -doubt.ends && slowest > off.fused(after, 2.0 * doubt.noise) {
+            if b3 <= -bounds.ends && slowest > off.fused(after, 2.0 * bounds.noise) {
                 let tau = after * self.tau;
                 let start = Reading {
                     value: split,
@@ -133,15 +134,15 @@ impl Cubic {
     }
 
     /// Whether g rises throughout.
-    pub(crate) fn rises(&self, doubt: Doubt) -> bool {
+    pub(crate) fn rises(&self, bounds: Bounds) -> bool {
         let [b0, b1, b2, b3] = self.coefficients;
         let slowest = (b1 - b0).min(b2 - b1).min(b3 - b2);
-        slowest > doubt.truncation.fused(1.0 / 12.0, 2.0 * doubt.noise)
+        slowest > bounds.truncation.fused(1.0 / 12.0, 2.0 * bounds.noise)
     }
 
     /// Whether the cubic goes on well inside for twice the step.
     #[inline(always)]
-    pub(crate) fn has_room(&self, doubt: Doubt) -> bool {
+    pub(crate) fn has_room(&self, bounds: Bounds) -> bool {
         /// A step twice as long bends so many times as much.
         const TWICE: f64 = 16.0;
         let [b0, _, _, b3] = self.coefficients;
@@ -150,7 +151,7 @@ impl Cubic {
         let (square, cube) = (3.0 * rise - 2.0 * d0 - d3, d0 + d3 - 2.0 * rise);
         let double = b0 + 2.0 * (d0 + 2.0 * (square + 2.0 * cube));
         let triple = b0 + 3.0 * (d0 + 3.0 * (square + 3.0 * cube));
-        double.min(triple) > TWICE * doubt.truncation.fused(1.0 / 12.0, doubt.noise)
+        double.min(triple) > TWICE * bounds.truncation.fused(1.0 / 12.0, bounds.noise)
     }
 }
 
@@ -163,9 +164,10 @@ fn fall(start: Reading, end: Reading, tau: f64) -> f64 {
     let v = 1.0 - u;
     let cubic =
         tau * (u * u * (3.0 - 2.0 * u)) + change * (u * v) * (v / start.rate - u / end.rate);
-    match cubic > 0.0 && cubic <= tau {
-        true => cubic,
-        false => tau * u,
+    if cubic > 0.0 && cubic <= tau {
+        cubic
+    } else {
+        tau * u
     }
 }
 
@@ -173,17 +175,17 @@ fn fall(start: Reading, end: Reading, tau: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn cubic(g: impl Fn(f64) -> (f64, f64), tau: f64, fourth: f64) -> (Cubic, Doubt) {
+    fn cubic(g: impl Fn(f64) -> (f64, f64), tau: f64, fourth: f64) -> (Cubic, Bounds) {
         let [start, end] = [0.0, tau].map(|t| {
             let (value, rate) = g(t);
             Reading { value, rate }
         });
-        let doubt = Doubt {
+        let bounds = Bounds {
             truncation: fourth * tau.powi(4) / 24.0,
             noise: 1e-15,
             ends: 1e-15,
         };
-        (Cubic::new(start, end, tau), doubt)
+        (Cubic::new(start, end, tau), bounds)
     }
 
     #[test]
@@ -198,8 +200,8 @@ mod tests {
                     .map(|k| g(tau * f64::from(k) / 1000.0).0)
                     .collect();
                 let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
-                let (cubic, doubt) = cubic(g, tau, 1.0);
-                match cubic.course(doubt, false) {
+                let (cubic, bounds) = cubic(g, tau, 1.0);
+                match cubic.course(bounds, false) {
                     Course::Free => assert!(lowest > 0.0, "{phase} {shift}"),
                     Course::Falls { at, .. } => {
                         assert!(g(0.0).0 > 0.0 && g(tau).0 < 0.0);
@@ -217,19 +219,19 @@ mod tests {
 
     #[test]
     fn half_a_turn_from_the_interface_and_beyond_is_told_at_once() {
-        let (cubic, doubt) = cubic(|t| (t.sin(), t.cos()), 3.3, 1.0);
-        let Course::Falls { at, .. } = cubic.course(doubt, true) else {
-            panic!("{:?}", cubic.course(doubt, true));
+        let (cubic, bounds) = cubic(|t| (t.sin(), t.cos()), 3.3, 1.0);
+        let Course::Falls { at, .. } = cubic.course(bounds, true) else {
+            panic!("{:?}", cubic.course(bounds, true));
         };
         assert!((at - std::f64::consts::PI).abs() < 0.01, "{at}");
-        assert_eq!(cubic.course(doubt, false), Course::Unknown);
+        assert_eq!(cubic.course(bounds, false), Course::Unknown);
     }
 
     #[test]
     fn what_is_far_is_told_at_once() {
-        let told = |g: &dyn Fn(f64) -> (f64, f64), tau: f64, fresh: bool| {
-            let (cubic, doubt) = cubic(g, tau, 1.0);
-            (cubic.course(doubt, fresh), cubic.has_room(doubt))
+        let told = |g: &dyn Fn(f64) -> (f64, f64), tau: f64, is_active: bool| {
+            let (cubic, bounds) = cubic(g, tau, 1.0);
+            (cubic.course(bounds, is_active), cubic.has_room(bounds))
         };
         assert_eq!(
             told(&|t| (2.0 + t.sin(), t.cos()), 0.5, false),

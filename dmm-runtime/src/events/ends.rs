@@ -10,10 +10,10 @@
 //! does no harm, a is the largest of three: |g₄| h⁴, |g₅| h⁵/φ, and the difference of the
 //! coefficients of order 2 of g and H, which is Σ (j − 3) gⱼ hʲ.
 
-use crate::events::cubic::{Course, Cubic, Doubt, Reading};
+use crate::arithmetic::Scalar;
+use crate::events::cubic::{Bounds, Course, Cubic, Reading};
 use crate::events::switching::NOISE;
-use crate::scalar::Scalar;
-use crate::series::jet::FIRST;
+use crate::expansion::jet::FIRST;
 
 /// The estimate of the terms that are not known counts so many times.
 const MARGIN: f64 = 1.5;
@@ -49,7 +49,7 @@ impl Decay {
 
 impl Ends {
     /// What is certain about an interface, from the first coefficients of g, its value and its
-    /// slope at the end, and the sign of g in the region. It is `fresh` if the step starts on it; that
+    /// slope at the end, and the sign of g in the region. The guard `is_active` if the step starts on it; that
     /// root does not count.
     #[inline(always)]
     pub(crate) fn course(
@@ -57,7 +57,7 @@ impl Ends {
         c: &[f64; FIRST],
         (value, slope): (f64, f64),
         sign: f64,
-        fresh: bool,
+        is_active: bool,
     ) -> Course {
         let Self { tau, decay } = self;
         let reading = |value: f64, rate: f64| Reading {
@@ -73,11 +73,11 @@ impl Ends {
         let (fourth_term, fifth_term) = (c[4].abs() * fourth, c[5].abs() * (fourth * tau));
         let others = fourth_term.max(fifth_term * decay.inverse).max(bend.abs());
         let known = 3.0f64.fused(fifth_term, fourth_term);
-        let doubt = Doubt {
+        let bounds = Bounds {
             truncation: decay.rest.fused(others, known),
             noise: NOISE * f64::ROUNDING * (b0.abs() + b3.abs()),
             ends: 0.0,
         };
-        cubic.course(doubt, fresh)
+        cubic.course(bounds, is_active)
     }
 }

@@ -1,9 +1,9 @@
 //! A piece of a trajectory as a polynomial: the dense output of a step.
 
 use super::interval::Interval;
-use crate::scalar::Scalar;
-use crate::series::jet::FIRST;
-use crate::system::Vector;
+use crate::arithmetic::Scalar;
+use crate::contract::Vector;
+use crate::expansion::jet::FIRST;
 
 /// x(t₀ + h) = Σ cⱼ (h/σ)ʲ for 0 ≤ h ≤ τ, σ the unit of time of the coefficients.
 ///

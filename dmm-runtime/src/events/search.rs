@@ -9,11 +9,11 @@
 //! A path that starts on the interface, coming from there, has a root at its start that does not
 //! count: g has to rise until it is above its rounding error.
 
-use super::cubic::{Course, Cubic, Doubt, Reading};
+use super::cubic::{Bounds, Course, Cubic, Reading};
 use super::interval::Interval;
 use super::path::Path;
 use super::switching::{ENCLOSED, Switching};
-use crate::scalar::Scalar;
+use crate::arithmetic::Scalar;
 
 /// Parts of a path that are looked at before it is given up.
 const MOST_PARTS: u32 = 50_000;
@@ -68,13 +68,13 @@ struct Part {
 }
 
 impl<const N: usize> Search<'_, N> {
-    /// The first zero, and how often zero was touched before. The path is `fresh` if it comes from
+    /// The first zero, and how often zero was touched before. The guard `is_active` if the path comes from
     /// the interface.
-    pub(crate) fn first(&self, fresh: bool) -> (Met, u32) {
+    pub(crate) fn first(&self, is_active: bool) -> (Met, u32) {
         let mut here = self.place(0.0);
         // off the interface by rounding, and on its way from there
         let is_on = here.reading.value <= here.noise;
-        let mut rises = fresh || is_on && here.reading.rate > 0.0;
+        let mut rises = is_active || is_on && here.reading.rate > 0.0;
         if !rises && here.reading.value < -here.noise {
             let at_once = Met::Crossing {
                 lower: 0.0,
@@ -147,9 +147,9 @@ impl<const N: usize> Search<'_, N> {
 
     /// The first crossing of zero, unless it depends on less than `band`: a path that comes closer
     /// to zero than that and returns, or goes beyond by less and returns, is undecided.
-    pub(crate) fn first_clear(&self, fresh: bool, band: f64) -> (Met, u32) {
+    pub(crate) fn first_clear(&self, is_active: bool, band: f64) -> (Met, u32) {
         let at = |level: f64| Self { level, ..*self };
-        match at(band).first(fresh) {
+        match at(band).first(is_active) {
             (Met::Crossing { .. }, _) => {}
             other => return other,
         }
@@ -160,7 +160,7 @@ impl<const N: usize> Search<'_, N> {
                 return (Met::Undecided(0.0), 0);
             }
         }
-        self.first(fresh)
+        self.first(is_active)
     }
 
     /// Whether g falls at the start and rises at the end, where it is positive, and bends upwards
@@ -238,17 +238,17 @@ impl<const N: usize> Search<'_, N> {
 }
 
 impl Part {
-    fn cubic(&self) -> (Cubic, Doubt) {
+    fn cubic(&self) -> (Cubic, Bounds) {
         let width = self.end.s - self.start.s;
         let square = width * width;
-        let doubt = Doubt {
+        let bounds = Bounds {
             truncation: self.g[4].magnitude() * (square * square),
             noise: self.noise,
             ends: self.noise,
         };
         (
             Cubic::new(self.start.reading, self.end.reading, width),
-            doubt,
+            bounds,
         )
     }
 
@@ -271,21 +271,21 @@ impl Part {
             let (from, at) = (0.0, 0.0);
             return Course::Falls { from, at };
         }
-        let (cubic, doubt) = self.cubic();
-        if rises && cubic.rises(doubt) {
+        let (cubic, bounds) = self.cubic();
+        if rises && cubic.rises(bounds) {
             return Course::Free;
         }
-        cubic.course(doubt, rises && at_zero)
+        cubic.course(bounds, rises && at_zero)
     }
 
     /// A lower bound of g.
     fn lowest(&self) -> f64 {
-        let (cubic, doubt) = self.cubic();
+        let (cubic, bounds) = self.cubic();
         let lowest = cubic
             .coefficients
             .iter()
             .fold(f64::INFINITY, |a, &b| a.min(b));
-        let by_cubic = lowest - doubt.truncation * (1.0 / 12.0);
+        let by_cubic = lowest - bounds.truncation * (1.0 / 12.0);
         self.g[0].low.max(by_cubic)
     }
 }
@@ -293,8 +293,8 @@ impl Part {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::Vector;
     use crate::events::Path;
-    use crate::system::Vector;
 
     /// g(s) in intervals with derivatives by hand.
     struct Function {
@@ -318,7 +318,7 @@ mod tests {
         }
     }
 
-    fn search(function: &Function, end: f64, level: f64, fresh: bool) -> (Met, u32) {
+    fn search(function: &Function, end: f64, level: f64, is_active: bool) -> (Met, u32) {
         let path = Path {
             t0: 0.0,
             unit: 1.0,
@@ -332,7 +332,7 @@ mod tests {
             end,
             level,
         };
-        let (met, touches) = search.first(fresh);
+        let (met, touches) = search.first(is_active);
         if let Met::Crossing { lower, upper } = met {
             let root = search.root(lower, upper);
             return (

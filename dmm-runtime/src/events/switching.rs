@@ -2,10 +2,10 @@
 
 use super::Path;
 use super::interval::Interval;
-use crate::scalar::Scalar;
+use crate::arithmetic::Scalar;
+use crate::contract::{Guards, Vector};
+use crate::expansion::jet::FIRST;
 use crate::series::InUnits;
-use crate::series::jet::FIRST;
-use crate::system::{Boundary, Vector};
 
 /// g this many rounding errors of its terms away from zero is not distinguished from it.
 pub(crate) const NOISE: f64 = 16.0;
@@ -32,17 +32,17 @@ pub(crate) trait Switching<const N: usize> {
     fn noise(&self, interface: usize, t: f64, x: &Vector<f64, N>) -> f64;
 }
 
-/// A boundary, over doubles and over intervals.
-pub(crate) struct Enclosed<'a, B: Boundary<f64, N>, const N: usize> {
-    boundary: &'a B,
+/// A guards, over doubles and over intervals.
+pub(crate) struct Enclosed<'a, B: Guards<f64, N>, const N: usize> {
+    guards: &'a B,
     enclosing: B::Over<Interval>,
 }
 
-impl<'a, B: Boundary<f64, N>, const N: usize> Enclosed<'a, B, N> {
-    pub(crate) fn new(boundary: &'a B) -> Self {
+impl<'a, B: Guards<f64, N>, const N: usize> Enclosed<'a, B, N> {
+    pub(crate) fn new(guards: &'a B) -> Self {
         Self {
-            boundary,
-            enclosing: boundary.over(),
+            guards,
+            enclosing: guards.over(),
         }
     }
 
@@ -52,13 +52,13 @@ impl<'a, B: Boundary<f64, N>, const N: usize> Enclosed<'a, B, N> {
             .coefficients
             .map(|c| std::array::from_fn(|k| c.get(k).copied().unwrap_or_default()));
         let time = (path.t0, path.unit);
-        coefficients(self.boundary, interface, time, &states, FIRST)
+        coefficients(self.guards, interface, time, &states, FIRST)
     }
 }
 
 /// The coefficients of g up to an order, from those of the state.
-fn coefficients<S: Scalar, B: Boundary<S, N>, const N: usize>(
-    boundary: &B,
+fn coefficients<S: Scalar, B: Guards<S, N>, const N: usize>(
+    guards: &B,
     interface: usize,
     (t, unit): (S, f64),
     states: &[[S; FIRST]; N],
@@ -66,16 +66,16 @@ fn coefficients<S: Scalar, B: Boundary<S, N>, const N: usize>(
 ) -> [S; FIRST] {
     let mut series = B::series::<FIRST>();
     for order in 0..count {
-        boundary.advance(InUnits { order, unit }, t, states, &mut series);
+        guards.advance(InUnits { order, unit }, t, states, &mut series);
     }
     series.as_ref()[interface]
 }
 
-impl<B: Boundary<f64, N>, const N: usize> Switching<N> for Enclosed<'_, B, N> {
+impl<B: Guards<f64, N>, const N: usize> Switching<N> for Enclosed<'_, B, N> {
     fn point(&self, interface: usize, path: &Path<'_, N>, s: f64) -> (f64, f64) {
         let states = path.expanded(s);
         let time = (path.time(s), path.unit);
-        let [value, slope, ..] = coefficients(self.boundary, interface, time, &states, 2);
+        let [value, slope, ..] = coefficients(self.guards, interface, time, &states, 2);
         (value, slope)
     }
 
@@ -94,8 +94,8 @@ impl<B: Boundary<f64, N>, const N: usize> Switching<N> for Enclosed<'_, B, N> {
     }
 
     fn noise(&self, interface: usize, t: f64, x: &Vector<f64, N>) -> f64 {
-        let mut size = self.boundary.switching_size(interface, t, x);
-        let (by_time, gradient) = self.boundary.switching_gradient(interface, t, x);
+        let mut size = self.guards.switching_size(interface, t, x);
+        let (by_time, gradient) = self.guards.switching_gradient(interface, t, x);
         size += (by_time * t).abs();
         for (gradient, x) in gradient.iter().zip(x) {
             size += (gradient * x).abs();

@@ -9,16 +9,13 @@
 //! straight-line code, or a number. A number comes with a unit of time σ: the coefficients are
 //! those of (h/σ)ᵏ then.
 
-pub(crate) mod jet;
-pub(crate) mod polynomial;
-pub(crate) mod radius;
 #[cfg(test)]
 mod tests;
 mod unroll;
 
 pub use unroll::{Choice, Coefficients, Rolled, Straight, Unroll};
 
-use crate::scalar::Scalar;
+use crate::arithmetic::Scalar;
 
 /// The index k of a coefficient.
 pub trait Order: Copy {

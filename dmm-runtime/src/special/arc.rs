@@ -14,25 +14,24 @@ use super::series::power_series;
 pub(super) const CLOSE: f64 = 0.1112;
 
 /// |x| up to which a few terms do: consecutive steps of an integration.
-pub(super) const HOT: f64 = 1.0 / 256.0;
+const HOT: f64 = 1.0 / 256.0;
 
-/// The coefficients (−1)ᵏ/(2k + 3) of C from k = `first` on.
-pub(super) const fn coefficients<const N: usize>(first: usize) -> [f64; N] {
+/// The coefficients (−1)ᵏ/(2k + 3) of C.
+const fn coefficients<const N: usize>() -> [f64; N] {
     let mut coefficients = [0.0; N];
-    let mut index = 0;
-    while index < N {
-        let k = first + index;
+    let mut k = 0;
+    while k < N {
         let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        coefficients[index] = sign / (2 * k + 3) as f64;
-        index += 1;
+        coefficients[k] = sign / (2 * k + 3) as f64;
+        k += 1;
     }
     coefficients
 }
 
 /// The first term left out is 2⁻⁵⁸ of the sum.
-const HOT_COEFFICIENTS: [f64; 7] = coefficients(0);
+const HOT_COEFFICIENTS: [f64; 7] = coefficients();
 /// The first term left out is 2⁻⁵⁷ of the sum.
-const CLOSE_COEFFICIENTS: [f64; 17] = coefficients(0);
+const CLOSE_COEFFICIENTS: [f64; 17] = coefficients();
 
 /// C(x) for x > −1.
 #[inline]

@@ -1,23 +1,18 @@
 //! Pairs of doubles.
 //!
-//! Where two terms of a derivative cancel, whatever the formula, and where arguments are far
-//! apart, it is evaluated in pairs of doubles, u = high + low with |low| ≤ ulp(high)/2, which
-//! carry about 104 bits (Joldes, Muller & Popescu 2017, ACM Trans. Math. Softw. 44(2),
-//! algorithms 1, 2, 6 and 11; quotient and root by long division). Next to a zero of the
-//! derivative even these are not enough: see [`super::long`]. Levels of conserved quantities and
-//! the propagators of exact flows are pairs too.
+//! u = high + low with |low| ≤ ulp(high)/2: about 104 bits (Joldes, Muller & Popescu 2017, ACM
+//! Trans. Math. Softw. 44(2), algorithms 1, 2, 6 and 11; quotient and root by long division).
+//! Levels of conserved quantities and the propagators of exact flows are such pairs, and so are
+//! the sums in a divided difference whose rounding errors are put back.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::arc::coefficients;
-use super::extended::Extended;
-use super::series::power_series;
-use crate::scalar::Scalar;
-use crate::time::{two_product, two_sum};
+use crate::arithmetic::Scalar;
+use crate::arithmetic::error_free::{two_product, two_sum};
 
 /// What π/2 as a double lacks: the next 53 bits.
-pub(super) const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
+const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 
 /// An unevaluated sum of two doubles.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug, Default)]
@@ -26,13 +21,11 @@ pub(crate) struct Double {
     pub(crate) low: f64,
 }
 
-/// (−1)ᵏ/(2k + 3), of the series of C; at |x| = 1/16 the first term left out is 2⁻¹⁰⁸ of the sum.
-const LEADING: [f64; 13] = coefficients(0);
-/// Those whose terms are below 2⁻⁵² of the sum, so that plain doubles do.
-const TRAILING: [f64; 13] = coefficients(13);
-
 impl Double {
     pub(crate) const ONE: Self = Self::new(1.0, 0.0);
+
+    /// π/2
+    pub(super) const FRAC_PI_2: Self = Self::new(FRAC_PI_2, FRAC_PI_2_LOW);
 
     /// A number of more digits than a double has.
     pub(crate) const fn new(high: f64, low: f64) -> Self {
@@ -101,6 +94,24 @@ impl Double {
             quotient
         }
     }
+
+    /// √u
+    pub(super) fn root(self) -> Self {
+        let root = self.high.sqrt();
+        if root == 0.0 {
+            return Self::from(root);
+        }
+        let remainder = self - Self::product(root, root);
+        Self::fast_sum(root, remainder.high / (2.0 * root))
+    }
+
+    /// The angle of the direction (cosine, sine): that of the rounded coordinates, and what
+    /// their rounding took from it.
+    pub(super) fn angle(cosine: Self, sine: Self) -> Self {
+        let turn = sine.low * cosine.high - cosine.low * sine.high;
+        let square = sine.high * sine.high + cosine.high * cosine.high;
+        Self::new(sine.high.atan2(cosine.high), turn / square)
+    }
 }
 
 impl From<f64> for Double {
@@ -166,52 +177,5 @@ impl Div for Double {
         let second = remainder.high / other.high;
         let remainder = remainder - other * Self::from(second);
         Self::fast_sum(first, second) + Self::from(remainder.high / other.high)
-    }
-}
-
-impl Extended for Double {
-    const CERTAIN: f64 = 1.0 / (1_u64 << 44) as f64;
-
-    const TERMS: usize = 7;
-
-    const FRAC_PI_2: Self = Self::new(FRAC_PI_2, FRAC_PI_2_LOW);
-
-    fn high(self) -> f64 {
-        self.high
-    }
-
-    /// √u
-    fn sqrt(self) -> Self {
-        let root = self.high.sqrt();
-        if root == 0.0 {
-            return Self::from(root);
-        }
-        let remainder = self - Self::product(root, root);
-        Self::fast_sum(root, remainder.high / (2.0 * root))
-    }
-
-    /// The series, with the plain sum of the terms that are small, once |u| ≤ 1/16.
-    fn arc_remainder(self) -> Self {
-        if self.high.abs() > 1.0 / 16.0 {
-            return self.arc_remainder_by_halving();
-        }
-        let mut sum = Self::from(power_series(self.high, &TRAILING));
-        for (k, &high) in LEADING.iter().enumerate().rev() {
-            // What the coefficient ±1/n was rounded by: n·high is ±1 but for that.
-            let n = (2 * k + 3) as f64;
-            let low = (-n).mul_add(high, 1.0_f64.copysign(high)) / n;
-            sum = Self::new(high, low) + self * sum;
-        }
-        sum
-    }
-}
-
-impl Double {
-    /// The angle of the direction (cosine, sine): that of the rounded coordinates, and what
-    /// their rounding took from it.
-    pub(super) fn angle(cosine: Self, sine: Self) -> Self {
-        let turn = sine.low * cosine.high - cosine.low * sine.high;
-        let square = sine.high * sine.high + cosine.high * cosine.high;
-        Self::new(sine.high.atan2(cosine.high), turn / square)
     }
 }

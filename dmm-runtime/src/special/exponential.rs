@@ -1,6 +1,6 @@
 //! Exponentials.
 
-use crate::time::two_product;
+use crate::arithmetic::error_free::two_product;
 
 /// e^{a·b} without the rounding error of the product.
 ///

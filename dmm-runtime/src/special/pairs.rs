@@ -14,9 +14,8 @@ use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
 use std::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
 
 use super::double::Double;
-use super::extended::Extended;
 use super::series::power_series;
-use crate::scalar::Scalar;
+use crate::arithmetic::Scalar;
 use crate::special;
 
 /// What ln 2 as a double lacks: the next 53 bits.
@@ -35,10 +34,12 @@ const INVERSE_FACTORIALS: [(f64, f64); TERMS] = {
     while n < TERMS {
         factorial *= n as f64;
         let high = 1.0 / factorial;
-        table[n] = match n < PAIRS {
-            true => (high, remainder(high, factorial) / factorial),
-            false => (high, 0.0),
+        let low = if n < PAIRS {
+            remainder(high, factorial) / factorial
+        } else {
+            0.0
         };
+        table[n] = (high, low);
         n += 1;
     }
     table
@@ -179,7 +180,7 @@ impl Scalar for Double {
     }
 
     fn sqrt(self) -> Self {
-        Extended::sqrt(self)
+        self.root()
     }
 
     fn exp(self) -> Self {
@@ -238,9 +239,10 @@ impl Scalar for Double {
     fn asin(self) -> Self {
         let y = self.high.asin();
         let (c, s) = Self::from(y).circular();
-        match c.high > 0.0 && y.is_finite() {
-            true => Self::from(y) + (self - s) / c,
-            false => Self::from(y),
+        if c.high > 0.0 && y.is_finite() {
+            Self::from(y) + (self - s) / c
+        } else {
+            Self::from(y)
         }
     }
 

@@ -25,23 +25,25 @@ fn ulp(exact: &Big) -> Big {
     Big::from_parts(1.into(), exponent)
 }
 
-/// |value − exact| in ulp of the exact value; infinite where the value is not a number.
-pub(crate) fn distance(value: f64, exact: &Big) -> f64 {
+/// |value − exact| in ulp of the exact value, or of `terms` if these are greater; infinite where
+/// the value is not a number.
+pub(crate) fn distance(value: f64, exact: &Big, terms: Big) -> f64 {
     let Ok(value) = Big::try_from(value) else {
         return f64::INFINITY;
     };
     if !value.repr().is_finite() {
         return f64::INFINITY;
     }
+    let size = absolute(exact.clone()).max(terms);
     // The subtraction is rounded to the precision of its operands.
-    ((value.with_precision(2 * DIGITS).value() - exact) / ulp(exact))
+    ((value.with_precision(2 * DIGITS).value() - exact) / ulp(&size))
         .to_f64()
         .value()
         .abs()
 }
 
 /// Bits enough for the second difference of a function known to double precision: 106 are
-/// lost in it, 60 more next to a zero.
+/// lost in it.
 const DIGITS: usize = 300;
 
 /// `value` with `DIGITS` bits, and those that the function's behaviour at 0 and ∞ costs: h(u)
@@ -51,15 +53,7 @@ fn big(value: f64, others: &[f64]) -> Big {
     let largest = sizes.clone().fold(0.0, f64::max);
     let least = sizes.fold(f64::INFINITY, f64::min);
     let magnitude = if largest < 1.0 && largest > 0.0 {
-        // Twice as many where the leading term of the series vanishes, at b = −a/2.
-        let is_half = others
-            .iter()
-            .any(|other| other + 2.0 * value == 0.0 || 2.0 * other + value == 0.0);
-        if is_half {
-            -4.0 * largest.log2()
-        } else {
-            -2.0 * largest.log2()
-        }
+        -2.0 * largest.log2()
     } else {
         2.0 * least.max(1.0).log2()
     };
@@ -67,6 +61,10 @@ fn big(value: f64, others: &[f64]) -> Big {
         .unwrap()
         .with_precision(DIGITS + magnitude.ceil() as usize)
         .value()
+}
+
+fn absolute(value: Big) -> Big {
+    if value < Big::ZERO { -value } else { value }
 }
 
 /// 1 with the precision of `like`.
@@ -187,5 +185,45 @@ pub(crate) mod exact {
                 -u / (&square * &square)
             },
         )
+    }
+}
+
+/// The size of the terms that cancel where a derivative changes its sign; 0 elsewhere.
+pub(crate) mod terms {
+    use super::{Big, absolute, big, one};
+
+    /// (|cos u| + |sinc u|)/|u| from π on
+    pub(crate) fn sinc_prime(u: f64, _: f64) -> Big {
+        let u = big(u.abs(), &[]);
+        if u < Big::from(3) {
+            return Big::ZERO;
+        }
+        let (sin, cos) = u.sin_cos();
+        (absolute(cos) + absolute(sin / &u)) / u
+    }
+
+    pub(crate) fn asin_dd_prime(a: f64, b: f64) -> Big {
+        odd((a, b), Big::asin, |u| one(u) / (one(u) - u * u).sqrt())
+    }
+
+    pub(crate) fn atan_dd_prime(a: f64, b: f64) -> Big {
+        odd((a, b), Big::atan, |u| one(u) / (one(u) + u * u))
+    }
+
+    /// ∂h[a, b]/∂b = (h'(b) − h[a, b])/(b − a) = ∫ (u − a) h''(u) du/(b − a)² from a to b, and h''
+    /// changes its sign at 0. Its terms are the two of the first form, or the integrals from a to
+    /// 0 and from 0 to b, whichever are less.
+    fn odd((a, b): (f64, f64), h: fn(&Big) -> Big, first: fn(&Big) -> Big) -> Big {
+        if a == 0.0 || b == 0.0 || a.signum() == b.signum() {
+            return Big::ZERO;
+        }
+        let (x, y) = (big(a, &[b]), big(b, &[a]));
+        let step = &y - &x;
+        let (slope, from, to) = (first(&y), h(&x), h(&y));
+        let chord = (&to - &from) / &step;
+        let ends = (absolute(slope.clone()) + absolute(chord)) / absolute(step.clone());
+        let before = absolute(from - &x);
+        let behind = absolute(&step * slope - to + x);
+        ends.min((before + behind) / (&step * &step))
     }
 }

@@ -2,11 +2,11 @@
 //! its typed error, with everything that was integrated before it.
 
 use dmm_runtime::{
-    Correction, Crossing, Error, Flow, Integrator, Interrupted, Located, Locator, NewtonLocator,
-    OneStep, Scheme, Statistics, Step, StepFailure, Symmetric, System, Taylor, Vector, pws,
+    Correction, Crossing, Dynamics, ErrorKind, Integrator, Interrupted, Located, Locator, Method,
+    OneStep, Statistics, Step, StepFailure, Symmetric, System, Taylor, Uniform, Vector, pws,
 };
 
-use super::{Extent, Observe, Row, Verdict, name};
+use super::{Extent, Observe, Row, Verdict, kind_of};
 use crate::picture::Panel;
 use crate::systems::Elliptic;
 
@@ -91,7 +91,6 @@ pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
 /// [`Symmetric`], until it fails.
 #[derive(Clone)]
 struct Failing {
-    inner: Symmetric,
     failure: Option<StepFailure>,
 }
 
@@ -100,41 +99,32 @@ impl OneStep for Failing {
 
     type Memory<const N: usize> = ();
 
-    fn step_size(&self) -> f64 {
-        self.inner.step_size()
-    }
-
-    fn corrects_level(&self) -> bool {
-        true
-    }
-
-    fn begin<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
-        _flow: &F,
-        _t: f64,
-        _x: &Vector<f64, N>,
+        _dynamics: &F,
+        _step_size: Option<f64>,
     ) {
     }
 
-    fn step<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn step<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
         step: &Step<'_, F, N>,
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
         match self.failure {
-            _ if step.t0 < FROM => self.inner.step(step, statistics),
+            _ if step.t0 < FROM => Symmetric.step(step, statistics),
             Some(failure) => Err(failure),
             // a solver that does not notice
             None => Ok(Vector::from_element(f64::NAN)),
         }
     }
 
-    fn correction<const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn correction<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
         step: &Step<'_, F, N>,
         increment: &Vector<f64, N>,
     ) -> Option<Correction<N>> {
-        self.inner.correction(step, increment)
+        Symmetric.correction(step, increment)
     }
 }
 
@@ -146,9 +136,9 @@ enum Faulty {
 }
 
 impl Locator for Faulty {
-    fn locate<Sch: OneStep, const N: usize, const M: usize, F: Flow<f64, N, M>>(
+    fn locate<Map: OneStep, const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
-        _crossing: &Crossing<'_, Sch, F, N>,
+        _crossing: &Crossing<'_, Map, F, N>,
         _statistics: &mut Statistics,
     ) -> Option<Located<N>> {
         match self {
@@ -166,52 +156,34 @@ fn solver(what: &str, failure: StepFailure) -> Row {
         StepFailure::NoConvergence { .. } => "Newton failed",
         StepFailure::NotFinite => "left the domain",
     };
-    let scheme = Failing {
-        inner: Symmetric::step_size(STEP_SIZE),
+    let failing = Failing {
         failure: Some(failure),
     };
-    elliptic(&format!("solver: {what}"), expected, scheme, NewtonLocator)
+    let method = Uniform::new(failing, STEP_SIZE);
+    elliptic(&format!("solver: {what}"), expected, method)
 }
 
 fn silent_solver() -> Row {
-    let scheme = Failing {
-        inner: Symmetric::step_size(STEP_SIZE),
-        failure: None,
-    };
-    elliptic(
-        "solver: NaN in silence",
-        "left the domain",
-        scheme,
-        NewtonLocator,
-    )
+    let method = Uniform::new(Failing { failure: None }, STEP_SIZE);
+    elliptic("solver: NaN in silence", "left the domain", method)
 }
 
 fn located(what: &str, locator: Faulty) -> Row {
-    elliptic(
-        what,
-        "location failed",
-        Symmetric::step_size(STEP_SIZE),
-        locator,
-    )
+    let method = Symmetric::step_size(STEP_SIZE).locator(locator);
+    elliptic(what, "location failed", method)
 }
 
 /// A run of `elliptic` that has to stop with the expected error, with the points until then.
-fn elliptic<Sch: Scheme, Loc: Locator>(
-    what: &str,
-    expected: &str,
-    scheme: Sch,
-    locator: Loc,
-) -> Row {
+fn elliptic<Met: Method>(what: &str, expected: &str, method: Met) -> Row {
     let system = Elliptic::default();
-    let result = Integrator::new(&system, scheme)
-        .locator(locator)
+    let result = Integrator::new(&system, method)
         .initial(0.0, [-1.0, -1.0])
         .run_until(T_END);
     judge(what, "Symmetric", expected, result)
 }
 
 /// Formulas that have no value, and fields that do not say how to go on.
-fn formulas<Sch: Scheme>(observer: &mut dyn Observe, name: &str, scheme: &Sch) {
+fn formulas<Sch: Method>(observer: &mut dyn Observe, name: &str, scheme: &Sch) {
     let mut row = |row| observer.ended(row);
     row(refused(
         "blow-up at t = 1",
@@ -248,7 +220,7 @@ fn formulas<Sch: Scheme>(observer: &mut dyn Observe, name: &str, scheme: &Sch) {
 }
 
 /// A run that has to be refused in the expected way.
-fn refused<Sys: System<N>, Sch: Scheme, const N: usize>(
+fn refused<Sys: System<N>, Sch: Method, const N: usize>(
     what: &str,
     expected: &str,
     name: &str,
@@ -262,7 +234,7 @@ fn refused<Sys: System<N>, Sch: Scheme, const N: usize>(
 
 /// All these runs have to be refused, at t = 1 or at the first step or crossing after it, with
 /// the solution that was there before.
-fn judge<Sys: System<N>, Sch: Scheme, const N: usize>(
+fn judge<Sys: System<N>, Sch: Method, const N: usize>(
     what: &str,
     scheme: &str,
     expected: &str,
@@ -272,16 +244,19 @@ fn judge<Sys: System<N>, Sch: Scheme, const N: usize>(
         Ok(_) => return Row::new(what, scheme, Verdict::Wrong, "integrated to the end"),
         Err(interrupted) => interrupted,
     };
-    let found = match interrupted.error() {
-        // where a solution ends is met in one way or another
-        Error::NewtonFailed { .. } if what.starts_with("blow-up") => expected,
-        error => name(error),
+    let error = interrupted.error();
+    // where a solution ends is met in one way or another
+    let is_blow_up = matches!(error.kind, ErrorKind::NewtonFailed { .. });
+    let found = if is_blow_up && what.starts_with("blow-up") {
+        expected
+    } else {
+        kind_of(error)
     };
     let reached = interrupted.solution().last();
     let reached = reached.map_or(f64::NAN, |point| point.t);
     // the last points of a solution that ends at 1 may be a step before it or after
     let holds = found == expected && (0.8..=1.5).contains(&reached);
-    let finding = format!("{} at t = {reached:.3}", name(interrupted.error()));
+    let finding = format!("{} at t = {reached:.3}", kind_of(interrupted.error()));
     let verdict = if holds {
         Verdict::Refused
     } else {

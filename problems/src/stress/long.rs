@@ -5,8 +5,8 @@
 use std::ops::ControlFlow;
 
 use super::growth::Growth;
-use super::{Extent, Observe, Row, Setting, Verdict, name};
-use crate::method::Method;
+use super::{Extent, Observe, Row, Setting, Verdict, kind_of};
+use crate::method::MethodName;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Problem, Record, Run, Sink};
 use crate::registry::find;
@@ -18,32 +18,32 @@ const BOUND: f64 = 8.0;
 const CASES: [(&str, Setting, u64); 6] = [
     (
         "harmonic",
-        Setting::steps("Symmetric", Method::Symmetric, 1e-3),
+        Setting::steps("Symmetric", MethodName::Symmetric, 1e-3),
         1_000_000_000,
     ),
     (
         "elliptic",
-        Setting::steps("Symmetric", Method::Symmetric, 1e-3),
+        Setting::steps("Symmetric", MethodName::Symmetric, 1e-3),
         100_000_000,
     ),
     (
         "pendulum",
-        Setting::steps("Symmetric", Method::Symmetric, 0.037),
+        Setting::steps("Symmetric", MethodName::Symmetric, 0.037),
         100_000_000,
     ),
     (
         "henon_heiles",
-        Setting::steps("Symmetric", Method::Symmetric, 0.05),
+        Setting::steps("Symmetric", MethodName::Symmetric, 0.05),
         20_000_000,
     ),
     (
         "henon_heiles",
-        Setting::tolerance("Taylor 1e-3", Method::Taylor, 1e-3),
+        Setting::tolerance("Taylor 1e-3", MethodName::Taylor, 1e-3),
         10_000_000,
     ),
     (
         "henon_heiles",
-        Setting::tolerance("Taylor 1e-12", Method::Taylor, 1e-12),
+        Setting::tolerance("Taylor 1e-12", MethodName::Taylor, 1e-12),
         10_000_000,
     ),
 ];
@@ -82,9 +82,10 @@ impl Sink for Meter {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.growth.offer(self.steps as f64, record.error_ulps());
         self.steps += 1;
-        match self.steps > self.wanted {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        if self.steps > self.wanted {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     }
 }
@@ -102,7 +103,7 @@ fn measure(problem: &dyn Problem, setting: &Setting, steps: u64) -> (Row, Growth
     };
     let result = problem.integrate(&run, &mut meter);
     let (ulps, exponent) = (meter.growth.largest(), meter.growth.exponent());
-    let what = format!("{}, {:.0e} steps", problem.card().name, steps as f64);
+    let what = format!("{}, {:.0e} steps", problem.description().name, steps as f64);
     let row = match result {
         Ok(statistics) => Row::new(
             what,
@@ -114,7 +115,7 @@ fn measure(problem: &dyn Problem, setting: &Setting, steps: u64) -> (Row, Growth
             ),
         ),
         // nothing stands in the way of these runs
-        Err(error) => Row::new(what, setting.name, Verdict::Wrong, name(&error)),
+        Err(error) => Row::new(what, setting.name, Verdict::Wrong, kind_of(&error)),
     };
     (row, meter.growth)
 }

@@ -4,7 +4,6 @@
 //! One file a study, each a function that makes its runs, judges them by bounds with a reason,
 //! and draws what it saw.
 
-mod crossings;
 mod failures;
 mod growth;
 mod long;
@@ -15,9 +14,9 @@ mod systems;
 mod tangency;
 mod transitions;
 
-use dmm_runtime::Error;
+use dmm_runtime::{Error, ErrorKind};
 
-use crate::method::{Control, Method};
+use crate::method::{Control, MethodName};
 use crate::picture::Panel;
 use crate::problem::{Problem, Run};
 
@@ -34,7 +33,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// [`Verdict::Survived`] or [`Verdict::Wrong`].
-    fn within(bounds: bool) -> Self {
+    pub fn within(bounds: bool) -> Self {
         if bounds { Self::Survived } else { Self::Wrong }
     }
 
@@ -62,7 +61,8 @@ pub struct Row {
 }
 
 impl Row {
-    fn new(
+    /// A case by a scheme, how it ended, and its figures.
+    pub fn new(
         case: impl Into<String>,
         scheme: impl Into<String>,
         verdict: Verdict,
@@ -78,7 +78,7 @@ impl Row {
 
     /// A run that was stopped.
     fn refused(case: impl Into<String>, scheme: impl Into<String>, error: &Error) -> Self {
-        Self::new(case, scheme, Verdict::Refused, name(error))
+        Self::new(case, scheme, Verdict::Refused, kind_of(error))
     }
 }
 
@@ -93,7 +93,7 @@ pub enum Extent {
 
 impl Extent {
     /// A number that depends on it.
-    fn of<T>(self, full: T, brief: T) -> T {
+    pub fn of<T>(self, full: T, brief: T) -> T {
         match self {
             Self::Full => full,
             Self::Brief => brief,
@@ -127,7 +127,7 @@ impl Study {
 }
 
 /// All studies.
-pub const STUDIES: [Study; 9] = [
+pub const STUDIES: [Study; 7] = [
     Study {
         name: "long",
         title: "conservation within segments over up to 10⁹ steps",
@@ -159,16 +159,6 @@ pub const STUDIES: [Study; 9] = [
         study: tangency::study,
     },
     Study {
-        name: "crossings",
-        title: "random systems beside a solution whose signs of g are certain",
-        study: crossings::study,
-    },
-    Study {
-        name: "affine",
-        title: "random affine systems, by exact flows and by Taylor series",
-        study: crossings::affine_study,
-    },
-    Study {
         name: "failures",
         title: "injected failures of solvers, locators and formulas",
         study: failures::study,
@@ -179,14 +169,14 @@ pub const STUDIES: [Study; 9] = [
 #[derive(Clone, Copy, Debug)]
 struct Setting {
     name: &'static str,
-    method: Method,
+    method: MethodName,
     step_size: f64,
     tolerance: f64,
 }
 
 impl Setting {
     /// A scheme with uniform steps.
-    const fn steps(name: &'static str, method: Method, step_size: f64) -> Self {
+    const fn steps(name: &'static str, method: MethodName, step_size: f64) -> Self {
         Self {
             name,
             method,
@@ -196,7 +186,7 @@ impl Setting {
     }
 
     /// A scheme that chooses its steps.
-    const fn tolerance(name: &'static str, method: Method, tolerance: f64) -> Self {
+    const fn tolerance(name: &'static str, method: MethodName, tolerance: f64) -> Self {
         Self {
             name,
             method,
@@ -224,31 +214,31 @@ impl Setting {
 /// Every scheme, at settings for problems whose time scale is about 1; those that choose their
 /// steps also at a loose tolerance.
 const SETTINGS: [Setting; 9] = [
-    Setting::steps("Symmetric", Method::Symmetric, 0.02),
-    Setting::steps("Composed<4>", Method::Composed4, 0.04),
-    Setting::steps("Composed<6>", Method::Composed6, 0.08),
-    Setting::steps("Composed<8>", Method::Composed8, 0.08),
-    Setting::tolerance("Symmetric 1e-5", Method::SymmetricAdaptive, 1e-5),
-    Setting::tolerance("Composed<8> 1e-9", Method::Composed8Adaptive, 1e-9),
-    Setting::tolerance("Taylor 1e-3", Method::Taylor, 1e-3),
-    Setting::tolerance("Taylor 1e-12", Method::Taylor, 1e-12),
-    Setting::tolerance("Best 1e-12", Method::Best, 1e-12),
+    Setting::steps("Symmetric", MethodName::Symmetric, 0.02),
+    Setting::steps("Composed<4>", MethodName::Composed4, 0.04),
+    Setting::steps("Composed<6>", MethodName::Composed6, 0.08),
+    Setting::steps("Composed<8>", MethodName::Composed8, 0.08),
+    Setting::tolerance("Symmetric 1e-5", MethodName::SymmetricAdaptive, 1e-5),
+    Setting::tolerance("Composed<8> 1e-9", MethodName::Composed8Adaptive, 1e-9),
+    Setting::tolerance("Taylor 1e-3", MethodName::Taylor, 1e-3),
+    Setting::tolerance("Taylor 1e-12", MethodName::Taylor, 1e-12),
+    Setting::tolerance("Best 1e-12", MethodName::Best, 1e-12),
 ];
 
-/// The kind of an error.
-fn name(error: &Error) -> &'static str {
-    match error {
-        Error::InvalidInput { .. } => "invalid input",
-        Error::NewtonFailed { .. } => "Newton failed",
-        Error::LeftDomain { .. } => "left the domain",
-        Error::Sliding { .. } => "sliding",
-        Error::Tangential { .. } => "tangential",
-        Error::AmbiguousStart { .. } => "ambiguous start",
-        Error::NoRegion { .. } => "no region",
-        Error::LocationFailed { .. } => "location failed",
-        Error::Undecided { .. } => "undecided",
-        Error::Zeno { .. } => "Zeno",
-        Error::OutOfRange { .. } => "out of range",
+/// The kind of an error, in a few words.
+pub fn kind_of(error: &Error) -> &'static str {
+    match error.kind {
+        ErrorKind::InvalidInput { .. } => "invalid input",
+        ErrorKind::NewtonFailed { .. } => "Newton failed",
+        ErrorKind::LeftDomain => "left the domain",
+        ErrorKind::Sliding { .. } => "sliding",
+        ErrorKind::Tangential { .. } => "tangential",
+        ErrorKind::AmbiguousStart { .. } => "ambiguous start",
+        ErrorKind::NoRegion => "no region",
+        ErrorKind::LocationFailed { .. } => "location failed",
+        ErrorKind::Undecided { .. } => "undecided",
+        ErrorKind::Zeno { .. } => "Zeno",
+        ErrorKind::OutOfRange { .. } => "out of range",
         _ => "other",
     }
 }

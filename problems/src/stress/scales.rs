@@ -43,7 +43,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         for setting in SETTINGS {
             observer.begins(&format!(
                 "{}, {}",
-                (case.problem)().card().name,
+                (case.problem)().description().name,
                 setting.name
             ));
             observer.ended(row(&case, &setting, stride));
@@ -53,7 +53,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
 }
 
 fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
-    let name = (case.problem)().card().name;
+    let name = (case.problem)().description().name;
     let (first, last) = case.decades;
     let what = format!("{name}, states times 1e{first} to 1e{last}");
     let plain = match scaled(case, setting, 0) {
@@ -65,7 +65,7 @@ fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
     for decade in (first..=last).step_by(stride) {
         match scaled(case, setting, decade) {
             Ok(state) => worst = worst.max(distance(&state, &plain)),
-            Err(error) => refused.push((decade, super::name(&error))),
+            Err(error) => refused.push((decade, super::kind_of(&error))),
         }
     }
     let mut finding = format!("the same to {worst:.1e}");

@@ -1,7 +1,7 @@
 //! Step sizes from the limit of stability to 10⁻⁹: as long as a step has a solution, ψ keeps
 //! its level; when it has none any more, that is said.
 
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, name};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
 use crate::conservation::{Conservation, measure};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::Run;
@@ -81,7 +81,7 @@ fn summary(
                 };
                 (largest, smallest) = (largest.max(*tau), smallest.min(*tau));
             }
-            Some(Err(error)) => refused.push(format!("{tau:.0e}: {}", name(error))),
+            Some(Err(error)) => refused.push(format!("{tau:.0e}: {}", kind_of(error))),
             None => {}
         }
     }

@@ -2,7 +2,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// A particle on a circle in phase space that touches a wall, which changes nothing.
@@ -61,9 +61,13 @@ pws! {
     }
 }
 
-/// A card without a source.
-const fn card(name: &'static str, title: &'static str, initial: &'static [f64]) -> Card {
-    Card {
+/// A description without a source.
+const fn description(
+    name: &'static str,
+    title: &'static str,
+    initial: &'static [f64],
+) -> Description {
+    Description {
         name,
         title,
         source: "",
@@ -75,12 +79,14 @@ const fn card(name: &'static str, title: &'static str, initial: &'static [f64]) 
     }
 }
 
-/// The card of [`Circle`].
-pub(super) const CIRCLE: Card = card("circle", "a circle that touches a wall", &[-1.0, 0.1]);
-/// The card of [`Quartic`].
-pub(super) const QUARTIC: Card = card("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
-/// The card of [`Warped`].
-pub(super) const WARPED: Card = card(
+/// The description of [`Circle`].
+pub(super) const CIRCLE: Description =
+    description("circle", "a circle that touches a wall", &[-1.0, 0.1]);
+/// The description of [`Quartic`].
+pub(super) const QUARTIC: Description =
+    description("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
+/// The description of [`Warped`].
+pub(super) const WARPED: Description = description(
     "warped",
     "a star bound more on one side of an axis",
     &[0.05, 0.1, 0.44, 0.05],

@@ -8,11 +8,11 @@
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-use dmm_runtime::Error;
+use dmm_runtime::{Error, ErrorKind};
 use num_rational::BigRational;
 
 use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, name};
+use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
 use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Run, Sink};
@@ -83,7 +83,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     );
     for (kind, shown) in KINDS.iter().zip([true, false]) {
         for (k, setting) in SETTINGS.into_iter().enumerate() {
-            let name = (kind.problem)().card().name;
+            let name = (kind.problem)().description().name;
             observer.begins(&format!("{name}, {}", setting.name));
             let mut tally = Tally::default();
             let mut curve = Vec::new();
@@ -147,14 +147,15 @@ impl Tally {
         let what = || format!("α = {alpha:.0e}, c = 1 + {:.1e}", c - 1.0);
         match result {
             Err(error) if is_about_tangency(&error) => {
-                self.refused.push(format!("{}: {}", what(), name(&error)));
+                self.refused
+                    .push(format!("{}: {}", what(), kind_of(&error)));
             }
             Ok(_) if Some(count.crossings) == expected => self.right += 1,
             Ok(statistics) if count.crossings == 0 && statistics.grazes > 0 => self.touches += 1,
             Ok(_) => self
                 .wrong
                 .push(format!("{}: {} crossings", what(), count.crossings)),
-            Err(error) => self.wrong.push(format!("{}: {}", what(), name(&error))),
+            Err(error) => self.wrong.push(format!("{}: {}", what(), kind_of(&error))),
         }
         count.first
     }
@@ -184,7 +185,7 @@ impl Tally {
 
 fn is_about_tangency(error: &Error) -> bool {
     matches!(
-        error,
-        Error::Tangential { .. } | Error::LocationFailed { .. }
+        error.kind,
+        ErrorKind::Tangential { .. } | ErrorKind::LocationFailed { .. }
     )
 }

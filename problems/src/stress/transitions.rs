@@ -44,12 +44,12 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     ];
     for (kind, problem) in problems {
         let mut panel = Panel::new(
-            format!("{}: {kind}", problem.card().name),
+            format!("{}: {kind}", problem.description().name),
             Axis::new("transitions", Scale::Decades),
             Axis::new("largest |ψ_ref − exact level| so far", Scale::Decades),
         );
         for (k, setting) in SETTINGS.into_iter().enumerate() {
-            observer.begins(&format!("{}, {}", problem.card().name, setting.name));
+            observer.begins(&format!("{}, {}", problem.description().name, setting.name));
             let (row, growth) = measure(&*problem, &setting, transitions);
             observer.ended(row);
             let label = Some(setting.name.to_owned());
@@ -86,9 +86,10 @@ impl Sink for Levels {
             self.growth.offer(self.transitions as f64, error);
             self.entered = false;
         }
-        match self.transitions >= self.wanted {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        if self.transitions >= self.wanted {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     }
 
@@ -112,7 +113,7 @@ fn measure(problem: &dyn Problem, setting: &Setting, transitions: u64) -> (Row, 
         t_end: 100.0 * transitions as f64,
         ..setting.run(problem)
     };
-    let what = format!("{}, {transitions} transitions", problem.card().name);
+    let what = format!("{}, {transitions} transitions", problem.description().name);
     let row = match problem.integrate(&run, &mut levels) {
         Ok(_) => {
             let (error, exponent) = (levels.growth.largest(), levels.growth.exponent());

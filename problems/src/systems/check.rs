@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use crate::accurate;
-use crate::method::Method;
+use crate::method::MethodName;
 use crate::problem::{Crossed, OutputTimes, Problem, Run, Sink};
 use crate::reference::Reference;
 use crate::registry;
@@ -44,7 +44,7 @@ impl Sink for Collector {
     }
 }
 
-fn solve(problem: &dyn Problem, method: Method, control: f64, times: &[f64]) -> Collector {
+fn solve(problem: &dyn Problem, method: MethodName, control: f64, times: &[f64]) -> Collector {
     let run = Run {
         method,
         step_size: control,
@@ -87,10 +87,10 @@ struct Exact {
 /// As many crossings, into the same regions, their times and the states with errors of second
 /// order.
 fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
-    let name = problem.card().name;
+    let name = problem.description().name;
     let times: Vec<f64> = exact.samples.iter().map(|(t, _)| *t).collect();
-    let coarse = solve(problem, Method::Symmetric, step_size, &times);
-    let fine = solve(problem, Method::Symmetric, 0.5 * step_size, &times);
+    let coarse = solve(problem, MethodName::Symmetric, step_size, &times);
+    let fine = solve(problem, MethodName::Symmetric, 0.5 * step_size, &times);
     assert_eq!(coarse.crossings.len(), exact.count, "{name}");
     assert_eq!(fine.crossings.len(), exact.count, "{name}");
     let numerical = coarse.crossings.iter().zip(&fine.crossings);
@@ -104,7 +104,7 @@ fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
         let (coarse, fine) = (distance(coarse, exact), distance(fine, exact));
         assert_order_two(coarse, fine, &format!("{name}: state at {t}"));
     }
-    for method in [Method::Taylor, Method::Best] {
+    for method in [MethodName::Taylor, MethodName::Best] {
         for tolerance in TOLERANCES {
             assert_reaches(problem, (method, tolerance), &times, exact);
         }
@@ -115,11 +115,11 @@ fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
 /// the tolerance of a method.
 fn assert_reaches(
     problem: &dyn Problem,
-    (method, tolerance): (Method, f64),
+    (method, tolerance): (MethodName, f64),
     times: &[f64],
     exact: &Exact,
 ) {
-    let name = format!("{}, {}", problem.card().name, method.name());
+    let name = format!("{}, {}", problem.description().name, method.name());
     let solution = solve(problem, method, tolerance, times);
     let largest = (GROWTH * tolerance).max(GROWN);
     assert_eq!(
@@ -168,7 +168,7 @@ fn against_reference(name: &str, step_size: f64) {
 /// whole of `t_end`, and at every crossing until then.
 fn against_accurate(name: &str, step_size: f64, t_end: f64) {
     let problem = registry::find(name).unwrap();
-    let initial = problem.card().initial;
+    let initial = problem.description().initial;
     let nodes = accurate::crossings(&*problem, initial, t_end, usize::MAX).unwrap();
     // a piecewise-smooth system that never crosses would test nothing of it
     assert_eq!(nodes.len() > 1, !problem.interfaces().is_empty(), "{name}");
@@ -200,7 +200,7 @@ macro_rules! checks {
         #[test]
         fn every_problem_is_checked() {
             let checked = [$(stringify!($name)),+];
-            let problems: Vec<_> = registry::all().iter().map(|it| it.card().name).collect();
+            let problems: Vec<_> = registry::all().iter().map(|it| it.description().name).collect();
             assert_eq!(checked[..], problems);
         }
     };

@@ -8,7 +8,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Oscillator with unequal damping on the way out and on the way back.
@@ -32,7 +32,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "damped",
     title: "oscillator with unequal damping out and back",
     source: "Wan, Bihlo & Nave, Conservative methods for dynamical systems; piecewise variant",

@@ -13,7 +13,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Double pendulum.
@@ -37,7 +37,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "double_pendulum",
     title: "double pendulum",
     source: "Landau & Lifshitz, Mechanics, section 5; Korsch, Jodl & Hartmann, Chaos, chapter 5",

@@ -11,7 +11,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Motion along elliptic curves, with another curve inside the unit circle.
@@ -33,7 +33,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "elliptic",
     title: "elliptic curves that change at the unit circle",
     source: "Hirani, Wan & Wojtalewicz, Conservative integrators for piecewise smooth systems, 4.2",

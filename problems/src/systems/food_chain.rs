@@ -16,7 +16,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Food chain of three species, the middle one harvested while its prey abounds.
@@ -50,7 +50,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "food_chain",
     title: "food chain of three species with a harvest that begins at x = 3/2",
     source: "Chauvet, Paullet, Previte & Walls, Math. Magazine 75 (2002); Costa, Kaszkurewicz, \

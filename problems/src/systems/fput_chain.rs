@@ -10,7 +10,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Fermi–Pasta–Ulam–Tsingou chain of eight masses whose first mass meets a stop.
@@ -51,7 +51,7 @@ pub(super) const fn parabola<const STATES: usize>(height: f64) -> [f64; STATES] 
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "fput_chain",
     title: "Fermi-Pasta-Ulam-Tsingou chain of 8 masses with a stop",
     source: "Fermi, Pasta, Ulam & Tsingou, LA-1940 (1955); Shaw & Holmes, J. Sound Vib. 90 (1983)",

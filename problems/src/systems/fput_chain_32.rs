@@ -12,7 +12,7 @@
 use dmm_runtime::pws;
 
 use super::fput_chain::parabola;
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Fermi–Pasta–Ulam–Tsingou chain of thirty-two masses with a bond of broken-linear force.
@@ -41,7 +41,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "fput_chain_32",
     title: "Fermi-Pasta-Ulam-Tsingou chain of 32 masses with a broken-linear bond",
     source: "Fermi, Pasta, Ulam & Tsingou, LA-1940 (1955)",

@@ -9,7 +9,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Oscillator whose spring stiffens below y = 0.
@@ -31,7 +31,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "harmonic",
     title: "oscillator whose spring stiffens below y = 0",
     source: "Hirani, Wan & Wojtalewicz, Conservative integrators for piecewise smooth systems, 4.1",

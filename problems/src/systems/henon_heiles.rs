@@ -8,7 +8,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// A star in the field of an axisymmetric galaxy.
@@ -23,7 +23,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "henon_heiles",
     title: "a star in the field of an axisymmetric galaxy",
     source: "Henon & Heiles, Astron. J. 69 (1964)",

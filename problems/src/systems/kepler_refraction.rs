@@ -15,7 +15,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Planet whose attraction grows inside the unit circle.
@@ -49,7 +49,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "kepler_refraction",
     title: "Kepler orbit refracted at the unit circle",
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, I.2; piecewise variant",

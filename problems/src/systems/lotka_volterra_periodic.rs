@@ -9,7 +9,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Predator and prey, with both rates of the prey changing where the prey passes x = 1.
@@ -34,7 +34,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "lotka_volterra_periodic",
     title: "predator and prey with rates that change at x = 1",
     source: "Wan, Bihlo & Nave, Conservative methods for dynamical systems; piecewise variant",

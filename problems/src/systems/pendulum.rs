@@ -10,7 +10,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Pendulum that swings against a stronger restoring torque on the left.
@@ -32,7 +32,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "pendulum",
     title: "pendulum with a stronger torque on the left",
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, I.1.2; piecewise variant",

@@ -8,7 +8,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Particle in the Pöschl–Teller well.
@@ -22,7 +22,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "poschl_teller",
     title: "particle in the Poschl-Teller well",
     source: "Poschl & Teller, Z. Phys. 83 (1933)",

@@ -8,7 +8,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Harmonic oscillator at relativistic speed.
@@ -23,7 +23,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "relativistic_oscillator",
     title: "harmonic oscillator at relativistic speed",
     source: "Landau & Lifshitz, The Classical Theory of Fields, 9",

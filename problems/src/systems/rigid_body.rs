@@ -10,7 +10,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Free rigid body whose moments of inertia change where it tumbles through y = 0.
@@ -39,7 +39,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "rigid_body",
     title: "free rigid body whose inertia changes at y = 0",
     source: "Hairer, Lubich & Wanner, Geometric Numerical Integration, IV.1; piecewise variant",

@@ -11,7 +11,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Circuit of a capacitor and an inductor whose core saturates.
@@ -35,7 +35,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "saturating_inductor",
     title: "circuit with an inductor that saturates",
     source: "Chua, Desoer & Kuh, Linear and Nonlinear Circuits (1987)",

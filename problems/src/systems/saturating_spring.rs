@@ -8,7 +8,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Oscillator whose spring saturates.
@@ -22,7 +22,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "saturating_spring",
     title: "oscillator whose spring saturates",
     source: "Nayfeh & Mook, Nonlinear Oscillations, chapter 2",

@@ -9,7 +9,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Spiral that reverses its sense of rotation where it leaves the unit disc.
@@ -31,7 +31,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "spiral",
     title: "spiral that reverses its rotation at the unit circle",
     source: "Nurkanovic, Sperl, Albrecht & Diehl, Finite elements with switch detection",

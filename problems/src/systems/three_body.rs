@@ -10,7 +10,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Three bodies in a plane.
@@ -48,7 +48,7 @@ const fn figure_eight() -> [f64; 12] {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "three_body",
     title: "three bodies on the figure eight",
     source: "Chenciner & Montgomery, Ann. of Math. 152 (2000)",

@@ -10,7 +10,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Toda lattice of three particles on a ring.
@@ -29,7 +29,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "toda",
     title: "Toda lattice of three particles on a ring",
     source: "Toda, J. Phys. Soc. Japan 22 (1967); Flaschka, Phys. Rev. B 9 (1974)",

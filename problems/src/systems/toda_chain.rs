@@ -13,7 +13,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Toda ring of eight masses with a crack.
@@ -40,7 +40,7 @@ pws! {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "toda_chain",
     title: "Toda ring of 8 masses with a crack",
     source: "Toda, J. Phys. Soc. Japan 22 (1967); Kuznetsova, Pasternak & Dyskin, Nonlin. \

@@ -8,7 +8,7 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Card;
+use crate::problem::Description;
 
 pws! {
     /// Toda ring of thirty-two masses with a crack.
@@ -49,7 +49,7 @@ const fn initial() -> [f64; 64] {
 }
 
 /// The initial value problem.
-pub const CARD: Card = Card {
+pub const DESCRIPTION: Description = Description {
     name: "toda_chain_32",
     title: "Toda ring of 32 masses with a crack",
     source: "Toda, J. Phys. Soc. Japan 22 (1967); Kuznetsova, Pasternak & Dyskin, Nonlin. \

@@ -94,7 +94,7 @@ fn assert_names_every_problem(text: &str) {
     for problem in dmm_problems::registry::all() {
         assert!(
             text.lines()
-                .any(|line| line.starts_with(problem.card().name))
+                .any(|line| line.starts_with(problem.description().name))
         );
     }
 }
@@ -148,7 +148,7 @@ fn a_full_disk_under_standard_output_is_a_failure() {
 fn every_command_takes_every_problem() {
     let results = Results::new();
     for problem in dmm_problems::registry::all() {
-        let name = problem.card().name;
+        let name = problem.description().name;
         let shown = said(&["show", name]);
         assert!(shown.contains("discrete vector field"), "{name}");
         let text = results.said(&["run", name, "--step", "0.02", "--end", "1"]);

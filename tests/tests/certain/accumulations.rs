@@ -1,6 +1,6 @@
 //! Many transitions, and transitions without end.
 
-use dmm_runtime::{Best, Composed, Error, Integrator, Scheme, Symmetric, Taylor, pws};
+use dmm_runtime::{Best, Composed, ErrorKind, Integrator, Method, Symmetric, Taylor, pws};
 use dmm_tests::run;
 
 pws! {
@@ -42,7 +42,7 @@ fn a_long_run_of_a_polynomial_flow_has_as_many_transitions_as_it_has() {
     assert_eq!(found.statistics.transitions, count);
 }
 
-fn accumulates(scheme: impl Scheme) {
+fn accumulates(scheme: impl Method) {
     let halted = run(&Fuller::default(), scheme, [1.0, 0.0], 100.0).unwrap_err();
     let end = halted.end().unwrap();
     // near the origin, where nothing is determined any more
@@ -50,12 +50,12 @@ fn accumulates(scheme: impl Scheme) {
     assert!(end.statistics.transitions > 5, "{end:?}");
     assert!(
         matches!(
-            halted.error(),
-            Error::Zeno { .. }
-                | Error::Undecided { .. }
-                | Error::Sliding { .. }
-                | Error::Tangential { .. }
-                | Error::LocationFailed { .. }
+            halted.error().kind,
+            ErrorKind::Zeno { .. }
+                | ErrorKind::Undecided { .. }
+                | ErrorKind::Sliding { .. }
+                | ErrorKind::Tangential { .. }
+                | ErrorKind::LocationFailed { .. }
         ),
         "{halted}"
     );

@@ -1,7 +1,7 @@
 //! Switching functions whose series converge more slowly than those of the state.
 
 use dmm_runtime::{
-    Best, Composed, Ensemble, Error, Integrator, Member, Scheme, Symmetric, System, Taylor, pws,
+    Best, Composed, Ensemble, ErrorKind, Integrator, Member, Method, Symmetric, System, Taylor, pws,
 };
 use dmm_tests::run;
 
@@ -70,7 +70,7 @@ pws! {
 /// Times of transitions.
 fn times<Sys: System<N>, const N: usize>(
     system: &Sys,
-    scheme: impl Scheme,
+    scheme: impl Method,
     initial: [f64; N],
     t_end: f64,
 ) -> Vec<f64> {
@@ -123,7 +123,7 @@ fn random(count: usize) -> impl Iterator<Item = f64> {
     })
 }
 
-fn discs(scheme: impl Scheme, bound: f64) {
+fn discs(scheme: impl Method, bound: f64) {
     let numbers: Vec<f64> = random(4 * 200).collect();
     let mut clear = 0;
     for start in numbers.chunks(4) {
@@ -204,11 +204,8 @@ fn a_switching_function_without_a_value_is_told() {
     ] {
         assert!(
             matches!(
-                error.error(),
-                Error::Undecided {
-                    interface: "end",
-                    ..
-                }
+                error.error().kind,
+                ErrorKind::Undecided { interface: "end" }
             ),
             "{error}"
         );

@@ -1,6 +1,6 @@
 //! Rest: starts at an equilibrium or at zero, and solutions that come to rest.
 
-use dmm_runtime::{Best, Composed, Scheme, Symmetric, Taylor, pws};
+use dmm_runtime::{Best, Composed, Method, Symmetric, Taylor, pws};
 use dmm_tests::run;
 
 pws! {
@@ -43,7 +43,7 @@ pws! {
     }
 }
 
-fn spring(scheme: impl Scheme, bound: f64) {
+fn spring(scheme: impl Method, bound: f64) {
     let found = run(&Spring {}, scheme, [0.0, 0.0], 10.0).unwrap();
     let omega = 2f64.sqrt();
     let exact = 0.5 * (1.0 - (omega * 10.0).cos());
@@ -61,7 +61,7 @@ fn a_start_at_the_origin_is_like_any_other() {
     spring(Best::tolerance(1e-12), 1e-13);
 }
 
-fn line(scheme: impl Scheme, bound: f64) {
+fn line(scheme: impl Method, bound: f64) {
     let found = run(&Line {}, scheme, [-1.0], 3.0).unwrap();
     assert_eq!(found.statistics.transitions, 1);
     let error = (found.point.x[0] - (2f64.exp() - 1.0)).abs();
@@ -77,7 +77,7 @@ fn zero_is_crossed_in_one_dimension() {
     line(Best::tolerance(1e-12), 1e-13);
 }
 
-fn decay(scheme: impl Scheme) {
+fn decay(scheme: impl Method) {
     for t_end in [10.0, 100.0, 2000.0] {
         let found = run(&Decay {}, scheme.clone(), [1.0], t_end).unwrap();
         assert_eq!(found.statistics.transitions, 0, "{t_end}");
@@ -95,7 +95,7 @@ fn what_never_arrives_does_not_arrive() {
     decay(Best::tolerance(1e-9));
 }
 
-fn sinks(scheme: impl Scheme) {
+fn sinks(scheme: impl Method) {
     let mut number = 0.3;
     let mut random = || {
         number = (number * 9301.0 + 0.618) % 1.0;

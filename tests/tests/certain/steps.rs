@@ -1,6 +1,6 @@
 //! Switching functions that change several times in a step.
 
-use dmm_runtime::{Composed, Scheme, Symmetric, Taylor, pws};
+use dmm_runtime::{Composed, Method, Symmetric, Taylor, pws};
 use dmm_tests::run;
 
 pws! {
@@ -45,7 +45,7 @@ fn driven(omega: f64, t_end: f64) -> (f64, u64) {
     (x, count)
 }
 
-fn waves(scheme: impl Scheme) {
+fn waves(scheme: impl Method) {
     for (omega, t_end) in [(1.0, 100.0), (100.0, 10.0)] {
         // just after the first zero, at the start
         let start = 1e-3 / omega;

@@ -6,13 +6,13 @@ mod mixed;
 mod spectra;
 mod stiff;
 
-use dmm_runtime::{Best, InitialValueProblem, Integrator, NewtonLocator, Solution, System};
+use dmm_runtime::{Best, InitialValueProblem, Integrator, Solution, System};
 
 /// The problem from `x` at t = 0.
 fn start<Sys: System<N>, const N: usize>(
     system: &Sys,
     x: [f64; N],
-) -> InitialValueProblem<'_, Sys, Best, NewtonLocator, N> {
+) -> InitialValueProblem<'_, Sys, Best, N> {
     Integrator::new(system, Best::tolerance(1e-12)).initial(0.0, x)
 }
 

@@ -12,7 +12,7 @@ fn fragments() -> Vec<(&'static str, String)> {
         .iter()
         .map(|problem| {
             let scheme = dmm_compiler::read(declaration(&**problem)).expect("a problem compiles");
-            (problem.card().name, emit::latex(&scheme))
+            (problem.description().name, emit::latex(&scheme))
         })
         .collect()
 }

@@ -155,8 +155,7 @@ fn the_locator_can_be_replaced() {
             amplitude: delay,
             power: 0,
         };
-        let solution = Integrator::new(&system, Symmetric::step_size(0.25))
-            .locator(late)
+        let solution = Integrator::new(&system, Symmetric::step_size(0.25).locator(late))
             .initial(0.0, [1.125])
             .run_until(2.0)
             .unwrap();

@@ -1,6 +1,6 @@
 //! What stops an integration before its end time, and what is kept of it.
 
-use dmm_runtime::Error;
+use dmm_runtime::ErrorKind;
 
 use super::{Drift, Growing, Vanishing, start};
 
@@ -13,12 +13,14 @@ fn sliding_is_refused_with_both_rates() {
     let interrupted = start(&system, 0.3, [1.0]).run_until(2.0).unwrap_err();
     assert!(
         matches!(
-            interrupted.error(),
-            Error::Sliding { interface: "wall", from: "above", to: "below", rate_from, rate_to, t, .. }
-                if *rate_from == -1.0 && *rate_to == 2.0 && (t - 1.0).abs() < 1e-15
+            interrupted.error().kind,
+            ErrorKind::Sliding { interface: "wall", from: "above", to: "below", rate_from, rate_to }
+                if rate_from == -1.0 && rate_to == 2.0
         ),
         "{interrupted:?}"
     );
+    let place = interrupted.error().place().unwrap();
+    assert!((place.t - 1.0).abs() < 1e-15 && place.step_size.is_none());
     // nothing that was computed is lost
     let reached = interrupted.solution().last().unwrap();
     assert!((reached.t - 1.0).abs() < 1e-15 && reached.x[0].abs() < 1e-15);
@@ -32,14 +34,8 @@ fn the_end_of_a_solution_is_a_typed_error_with_the_solution_before_it() {
         .unwrap_err();
     assert!(
         matches!(
-            interrupted.error(),
-            Error::NewtonFailed {
-                region: "everywhere",
-                ..
-            } | Error::LeftDomain {
-                region: "everywhere",
-                ..
-            }
+            interrupted.error().kind,
+            ErrorKind::NewtonFailed { .. } | ErrorKind::LeftDomain
         ),
         "{interrupted:?}"
     );
@@ -53,7 +49,7 @@ fn no_point_is_ever_not_finite() {
     let interrupted = start(&Growing::default(), 0.01, [1.0])
         .run_until(100.0)
         .unwrap_err();
-    assert!(matches!(interrupted.error(), Error::LeftDomain { .. }));
+    assert!(matches!(interrupted.error().kind, ErrorKind::LeftDomain));
     let solution = interrupted.solution();
     assert!(solution.points().iter().all(|point| point.x[0].is_finite()));
     assert_eq!(solution.points().last(), solution.last());

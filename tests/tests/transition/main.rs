@@ -6,7 +6,7 @@ mod points;
 mod starts;
 mod taylor;
 
-use dmm_runtime::{InitialValueProblem, Integrator, NewtonLocator, Symmetric, System, pws};
+use dmm_runtime::{InitialValueProblem, Integrator, Symmetric, System, Uniform, pws};
 
 pws! {
     /// Constant acceleration on both sides of x = 0: the symmetric scheme is exact for it.
@@ -87,6 +87,6 @@ fn start<Sys: System<N>, const N: usize>(
     system: &Sys,
     step_size: f64,
     x: [f64; N],
-) -> InitialValueProblem<'_, Sys, Symmetric, NewtonLocator, N> {
+) -> InitialValueProblem<'_, Sys, Uniform<Symmetric>, N> {
     Integrator::new(system, Symmetric::step_size(step_size)).initial(0.0, x)
 }

@@ -1,6 +1,6 @@
 //! The region that a solution starts in, and input that makes no sense.
 
-use dmm_runtime::{Error, Integrator, Symmetric};
+use dmm_runtime::{ErrorKind, Integrator, Symmetric};
 
 use super::{Drift, DriftRegion, start};
 
@@ -16,16 +16,16 @@ fn a_start_on_the_interface_is_decided_by_the_rates() {
         DriftRegion::Below
     );
     assert!(matches!(
-        run(-1.0, 2.0).unwrap_err().error(),
-        Error::Sliding { .. }
+        run(-1.0, 2.0).unwrap_err().error().kind,
+        ErrorKind::Sliding { .. }
     ));
     assert!(matches!(
-        run(1.0, -2.0).unwrap_err().error(),
-        Error::AmbiguousStart { .. }
+        run(1.0, -2.0).unwrap_err().error().kind,
+        ErrorKind::AmbiguousStart { .. }
     ));
     assert!(matches!(
-        run(0.0, -2.0).unwrap_err().error(),
-        Error::Tangential { .. }
+        run(0.0, -2.0).unwrap_err().error().kind,
+        ErrorKind::Tangential { .. }
     ));
 }
 
@@ -54,8 +54,8 @@ fn a_region_that_does_not_hold_the_start_is_refused() {
     for (x, region) in [(1.0, DriftRegion::Below), (0.0, DriftRegion::Above)] {
         let result = start(&system, 0.3, [x]).region(region).run_until(1.0);
         assert!(matches!(
-            result.unwrap_err().error(),
-            Error::InvalidInput { what: "region", .. }
+            result.unwrap_err().error().kind,
+            ErrorKind::InvalidInput { what: "region", .. }
         ));
     }
 }

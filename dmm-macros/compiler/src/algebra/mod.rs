@@ -6,7 +6,6 @@ pub mod differentiate;
 pub mod display;
 pub mod divided_difference;
 pub mod evaluate;
-mod hasher;
 mod language;
 pub mod normal_form;
 mod work;
@@ -20,7 +19,6 @@ pub use display::to_text;
 pub use divided_difference::{at_end, at_midpoint, at_start, divided_difference};
 pub use egg::Id;
 pub use evaluate::{evaluate, evaluate_bounded};
-pub(crate) use hasher::BuildQuick;
 pub use language::{Function, Math, Name, PairFunction, Rational};
 pub use normal_form::{
     Counterexample, Quotient, Verdict, decide_zero, divide_exactly, is_proved_zero, normalise,

@@ -174,9 +174,10 @@ impl<'d> Resolver<'d> {
         let Some(name) = self.states.get(state).map(|state| state.name.clone()) else {
             return;
         };
-        let shared = match earlier.is_shared && body.region.is_some() {
-            true => " of all regions",
-            false => "",
+        let shared = if earlier.is_shared && body.region.is_some() {
+            " of all regions"
+        } else {
+            ""
         };
         if !shared.is_empty() && !self.repeated.insert(format!("der({name})")) {
             return;
@@ -230,9 +231,10 @@ impl<'d> Resolver<'d> {
             return;
         };
         if let Some(formula) = formula {
-            let claim = match item.assumed {
-                true => Claim::Assumed,
-                false => Claim::Conserved,
+            let claim = if item.assumed {
+                Claim::Assumed
+            } else {
+                Claim::Conserved
             };
             add_quantity(body, &item.definition, ident, formula.id, claim);
         }

@@ -45,9 +45,10 @@ impl<'d> Resolver<'d> {
         self.names.leave_function();
         if self.names.is_first(ident, Kind::Function) {
             self.functions.insert(ident.to_string(), item);
-            let meaning = match is_right {
-                true => Meaning::Function,
-                false => Meaning::Wrong,
+            let meaning = if is_right {
+                Meaning::Function
+            } else {
+                Meaning::Wrong
             };
             self.names.set(ident, meaning);
         }

@@ -83,9 +83,10 @@ impl<'d> Resolver<'d> {
         if let Some(kind) = self.names.get(&text).map(|symbol| symbol.kind) {
             if kind != Kind::State && !self.names.is_refused(&text) {
                 self.names.mark_used(&text);
-                let states = match pair {
-                    true => "only states make canonical pairs",
-                    false => "only states have a `der`",
+                let states = if pair {
+                    "only states make canonical pairs"
+                } else {
+                    "only states have a `der`"
                 };
                 let message = format!("`{text}` is {}; {states}", kind.article());
                 self.report(codes::NOT_A_STATE, ident, message);

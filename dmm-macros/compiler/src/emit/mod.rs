@@ -1,40 +1,21 @@
-//! Emission: a [`Scheme`] as Rust ([`rust()`]), and as readable mathematics ([`listing()`], [`latex()`]).
+//! Emission: a [`Program`] as Rust ([`rust()`]), a [`Scheme`] as readable mathematics
+//! ([`listing()`], and with the feature `explore` as LaTeX).
 //!
-//! Nothing is derived here. Emitted code uses the module `::dmm_runtime::support` and nothing
-//! else outside `core` and `std`; its locals are kept apart from whatever names a declaration
-//! uses.
+//! Nothing is derived or chosen here but how it is written. Emitted code uses the module
+//! `::dmm_runtime::support` and nothing else outside `core` and `std`; its locals are kept apart
+//! from whatever names a declaration uses.
 
-mod boundary;
-mod code;
-mod constant;
-mod flow;
-mod function;
 mod listing;
-mod lower;
-mod methods;
-mod minimal_norm;
-mod names;
-mod nodes;
-mod operations;
-mod paths;
-mod readable;
-mod series;
-mod store;
-mod system;
+mod rust;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 
+use crate::program::Program;
 use crate::scheme::Scheme;
-pub use operations::{Evaluated, Operations};
 
 /// The items that `pws!` expands to.
-pub fn rust(scheme: &Scheme) -> TokenStream {
-    rust_of(scheme, &Operations::new(scheme))
-}
-
-/// As [`rust()`], from the operations of `scheme`.
-pub fn rust_of(scheme: &Scheme, operations: &Operations) -> TokenStream {
-    system::system(scheme, operations)
+pub fn rust(program: &Program<'_>) -> TokenStream {
+    rust::system(program)
 }
 
 /// The scheme in readable mathematics, as text.
@@ -43,6 +24,12 @@ pub fn listing(scheme: &Scheme) -> String {
 }
 
 /// The scheme in readable mathematics, as a fragment of a LaTeX document that loads amsmath.
+#[cfg(feature = "explore")]
 pub fn latex(scheme: &Scheme) -> String {
     listing::latex(scheme)
+}
+
+/// An identifier as people read it.
+fn plain_text(ident: &Ident) -> String {
+    ident.to_string().trim_start_matches("r#").to_owned()
 }

@@ -26,6 +26,7 @@
 //! Nonintegrability of Dynamical Systems*, ch. 2).
 
 mod ansatz;
+mod candidate;
 mod coefficients;
 mod elimination;
 mod field;
@@ -44,6 +45,7 @@ use crate::algebra::normal_form::terms::terms;
 use crate::algebra::{Id, Name};
 use crate::model::Model;
 use ansatz::{Ansatz, MOST_MONOMIALS, monomials};
+use candidate::occurring;
 use search::{Findings, Known, Search};
 
 pub use report::{read, report};
@@ -163,7 +165,7 @@ pub fn find(model: &mut Model, degree: u32) -> Result<Invariants, Obstacle> {
         own.push(candidates.ok_or(Obstacle::NoPoint)?);
     }
     // What all regions have in common is made of what any of them has.
-    let shared = own.first().map(|candidates| search::occurring(candidates));
+    let shared = own.first().map(|candidates| occurring(candidates));
     let shared = search.candidates(&all, &shared.unwrap_or_default());
     let shared = shared.ok_or(Obstacle::NoPoint)?;
     let mut known = Known::new();

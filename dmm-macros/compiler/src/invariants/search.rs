@@ -1,7 +1,7 @@
 //! The search: null spaces modulo a prime, the independent ones among their vectors, and their
 //! coefficients and proofs.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
@@ -9,6 +9,7 @@ use crate::algebra::{Dag, Id, Math, Name, gradient, is_proved_zero};
 
 use super::Invariant;
 use super::ansatz::{Ansatz, EXTRA_EQUATIONS, Parameters, rate};
+use super::candidate::{Candidate, occurring};
 use super::coefficients::{functions, without_denominators};
 use super::elimination::{Echelon, Entry};
 use super::field::{NARROW, Random, to_coprime_integers};
@@ -25,13 +26,6 @@ pub(super) struct Search<'a> {
     pub(super) parameters: &'a [Name],
     /// The vector fields of all regions.
     pub(super) fields: &'a [&'a [Id]],
-}
-
-/// A vector of the null space: entries by monomial.
-pub(super) struct Candidate {
-    pub(super) vector: Vec<Entry>,
-    pub(super) degree: u32,
-    pub(super) parameters: Parameters,
 }
 
 /// Gradients of what was found, at a point, to tell what is new.
@@ -85,9 +79,12 @@ impl Search<'_> {
             let group = groups.entry((candidate.degree, depends)).or_default();
             group.push(candidate);
         }
-        let cost = |column: usize| match self.ansatz.is_square_of_states(column) {
-            true => 1,
-            false => MIXED_COST,
+        let cost = |column: usize| {
+            if self.ansatz.is_square_of_states(column) {
+                1
+            } else {
+                MIXED_COST
+            }
         };
         let mut findings = Findings::default();
         for ((degree, _), mut group) in groups {
@@ -220,13 +217,6 @@ impl Search<'_> {
             is_proved_zero(dag, residual)
         })
     }
-}
-
-/// The monomials of which vectors are made, in rising order.
-pub(super) fn occurring(candidates: &[Candidate]) -> Vec<usize> {
-    let vectors = candidates.iter().flat_map(|one| &one.vector);
-    let columns: BTreeSet<usize> = vectors.map(|&(column, _)| column).collect();
-    columns.into_iter().collect()
 }
 
 /// Σ coefficient·monomial of these columns, with the sign for which squares of states, and then

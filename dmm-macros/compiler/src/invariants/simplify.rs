@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
+use super::candidate::Candidate;
 use super::elimination::Entry;
 use super::field::NARROW;
-use super::search::Candidate;
 
 /// How often an invariant is made simpler by adding another one.
 const MOST_REDUCTIONS: usize = 16;

@@ -69,9 +69,12 @@ fn turned_back(
     found: Counterexample,
     opposites: &HashMap<Name, Id>,
 ) -> Counterexample {
-    let turn = |(name, value): (Name, f64)| match opposites.contains_key(&name) {
-        true => (name, -value),
-        false => (name, value),
+    let turn = |(name, value): (Name, f64)| {
+        if opposites.contains_key(&name) {
+            (name, -value)
+        } else {
+            (name, value)
+        }
     };
     Counterexample {
         residual: dag.substitute(found.residual, opposites),

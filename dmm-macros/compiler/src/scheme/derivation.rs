@@ -1,13 +1,11 @@
 //! Model → scheme: the multipliers and their divided differences of every region, f^τ from the
 //! first strategy that fits, and the proofs of what was derived.
 
-use super::degree::{degree, is_affine};
-use super::guards::guards;
+use super::checked::checked;
+use super::degree::is_affine;
 use super::strategy::{Context, choose, midpoint};
 use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
-use crate::algebra::{
-    Dag, Id, Name, differentiate, divided_difference, gradient, is_proved_zero, jacobian,
-};
+use crate::algebra::{Dag, Id, Name, differentiate, divided_difference, is_proved_zero, jacobian};
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::scheme as codes;
 use crate::model::{Model, Region, sides};
@@ -19,7 +17,7 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
     let interfaces: Vec<SwitchingScheme> = model
         .interfaces
         .iter()
-        .map(|interface| switching(&mut model.dag, interface.switching_function, &states))
+        .map(|interface| SwitchingScheme::of(&mut model.dag, interface.switching_function, &states))
         .collect();
     let before = diagnostics.len();
     let regions = (0..model.regions.len())
@@ -30,17 +28,6 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
         interfaces,
         regions,
     })
-}
-
-/// The derivatives of a switching function.
-pub(super) fn switching(dag: &mut Dag, function: Id, states: &[Name]) -> SwitchingScheme {
-    let arguments = [states, &[Model::time()]].concat();
-    SwitchingScheme {
-        time_derivative: differentiate(dag, function, &Model::time()),
-        gradient: gradient(dag, function, states),
-        autonomous: !dag.variables([function]).contains(&Model::time()),
-        degree: degree(dag, [function], &arguments),
-    }
 }
 
 fn derive_region(
@@ -104,7 +91,7 @@ fn derive_region(
     let affine = !dag.variables(field.clone()).contains(&time) && is_affine(dag, field, states);
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
     let variables = (states, model.parameters.as_slice());
-    let guards = guards(dag, variables, (index, region), &sides, &strategy);
+    let checked = checked(dag, variables, (index, region), &sides, &strategy);
     RegionScheme {
         multiplier,
         time_derivative,
@@ -116,7 +103,7 @@ fn derive_region(
         autonomous,
         affine,
         proofs,
-        guards,
+        checked,
     }
 }
 

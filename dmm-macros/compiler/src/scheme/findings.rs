@@ -1,6 +1,6 @@
 //! What was proved of a region, in words: the lines that every form of the listing shows.
 
-use super::{Evidence, Guard, Proofs, Scheme};
+use super::{CheckedCondition, Evidence, Proofs, Scheme};
 use crate::algebra::{Dag, Id, to_text};
 use crate::model::{Conservation, Conserved, Independence, Region};
 
@@ -74,28 +74,28 @@ pub fn findings(scheme: &Scheme, region: usize) -> Vec<Finding> {
     findings.extend(identities(declared, &derived.proofs));
     findings.extend(
         derived
-            .guards
+            .checked
             .iter()
-            .map(|guard| checked(dag, declared, guard)),
+            .map(|condition| checked(dag, declared, condition)),
     );
     findings
 }
 
 /// A condition that a run checks.
-fn checked(dag: &Dag, region: &Region, guard: &Guard) -> Finding {
+fn checked(dag: &Dag, region: &Region, condition: &CheckedCondition) -> Finding {
     Finding {
         grounds: Grounds::Checked,
-        statement: guard.condition.statement(dag),
+        statement: condition.condition.statement(dag),
         remark: format!(
             "needed by {}: a run ends where this fails",
-            quantities(region, guard)
+            quantities(region, condition)
         ),
     }
 }
 
-/// The names of the quantities that a guard is about.
-pub fn quantities(region: &Region, guard: &Guard) -> String {
-    let quantities = guard.quantities.iter();
+/// The names of the quantities that a condition is about.
+pub fn quantities(region: &Region, condition: &CheckedCondition) -> String {
+    let quantities = condition.quantities.iter();
     let names = quantities.filter_map(|&index| region.conserved.get(index));
     let names: Vec<String> = names
         .map(|psi| psi.ident.to_string().trim_start_matches("r#").to_owned())

@@ -11,13 +11,14 @@
 //! Λ^τ and ∂ₜ^τψ are the symmetric divided differences of ψ; f^τ is made from them by the
 //! first [`Strategy`] that fits, and what was derived is proved before it is handed on.
 
+mod checked;
 mod degree;
 mod derivation;
 mod findings;
-mod guards;
 mod proofs;
 mod solvability;
 mod strategy;
+mod switching;
 
 use crate::algebra::{Dag, Id};
 use crate::model::{DomainCondition, Model};
@@ -26,6 +27,7 @@ pub use findings::{Finding, Grounds, findings, quantities};
 pub use proofs::{Evidence, Proofs};
 pub use solvability::Solvability;
 pub use strategy::{Explicit, Obstacle, Pairing, Refusal, Strategy};
+pub use switching::SwitchingScheme;
 
 /// The derived integrator of a whole system.
 #[derive(Debug)]
@@ -36,19 +38,6 @@ pub struct Scheme {
     pub interfaces: Vec<SwitchingScheme>,
     /// One scheme a region, in the order of [`Model::regions`].
     pub regions: Vec<RegionScheme>,
-}
-
-/// Derivatives of a switching function, over `t` and the states.
-#[derive(Debug)]
-pub struct SwitchingScheme {
-    /// ∂ₜg
-    pub time_derivative: Id,
-    /// ∇g
-    pub gradient: Vec<Id>,
-    /// Whether g does not depend on the time.
-    pub autonomous: bool,
-    /// The degree of g as a polynomial in t and x, if it is one.
-    pub degree: Option<u32>,
 }
 
 /// The derived scheme of one region. Ends of a step are the variables `x₀`, `x₁`, `t₀`, `t₁`.
@@ -75,13 +64,13 @@ pub struct RegionScheme {
     /// What was proved of the scheme.
     pub proofs: Proofs,
     /// The conditions of the proofs of ψ that a run has to check.
-    pub guards: Vec<Guard>,
+    pub checked: Vec<CheckedCondition>,
 }
 
 /// A condition under which quantities were proved to be conserved, and beyond which code has
 /// values nevertheless.
 #[derive(Debug)]
-pub struct Guard {
+pub struct CheckedCondition {
     /// The region, as an index in [`Model::regions`].
     pub region: usize,
     /// The condition.
@@ -97,7 +86,7 @@ pub struct Guard {
     pub is_fixed: bool,
 }
 
-impl Guard {
+impl CheckedCondition {
     /// Whether the function may have either sign, and has to keep it.
     pub fn keeps_sign(&self) -> bool {
         matches!(self.condition, DomainCondition::NonZero(_))
@@ -105,9 +94,9 @@ impl Guard {
 }
 
 impl Scheme {
-    /// The guards of all regions, in the order in which they are emitted.
-    pub fn guards(&self) -> impl Iterator<Item = &Guard> {
-        self.regions.iter().flat_map(|region| &region.guards)
+    /// The checked conditions of all regions, in the order in which they are emitted.
+    pub fn checked_conditions(&self) -> impl Iterator<Item = &CheckedCondition> {
+        self.regions.iter().flat_map(|region| &region.checked)
     }
 
     /// The DAG of every node.

@@ -4,8 +4,9 @@ use syn::parse::ParseStream;
 use syn::{Attribute, Token, parenthesized, token};
 
 use super::definition::{after_formula, comma, defined, equals};
+use super::target::target;
 use super::{Definition, FunctionItem, HamiltonianItem, Target};
-use super::{formula, group, mistake, name};
+use super::{formula, mistake, name};
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::syntax::{FUNCTION, HAMILTONIAN, TYPE};
 
@@ -131,7 +132,7 @@ fn pair(input: ParseStream<'_>) -> syn::Result<((Target, Target), Extent)> {
     if content.is_empty() {
         return Err(HAMILTONIAN.error(place, FORM));
     }
-    let coordinate = group::target(&content)?;
+    let coordinate = target(&content)?;
     if !content.peek(Token![,]) {
         return Err(HAMILTONIAN.error(place, FORM));
     }
@@ -139,7 +140,7 @@ fn pair(input: ParseStream<'_>) -> syn::Result<((Target, Target), Extent)> {
     if content.is_empty() {
         return Err(HAMILTONIAN.error(place, FORM));
     }
-    let momentum = group::target(&content)?;
+    let momentum = target(&content)?;
     if content.peek(Token![,]) {
         content.parse::<Token![,]>()?;
     }

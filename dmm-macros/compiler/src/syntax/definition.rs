@@ -5,7 +5,7 @@ use syn::parse::ParseStream;
 use syn::{Attribute, Token, parenthesized, token};
 
 use super::{Definition, Derivative, Expression, Target};
-use super::{documentation, formula, group, mistake, name};
+use super::{documentation, formula, mistake, name, target};
 use crate::diagnostics::catalogue::syntax::{
     ASSUME, DERIVATIVE, EQUALS, FUNCTION, GROUP, NAME, NOT_YET, ONE_DEFINITION, SEMICOLON, TYPE,
     UNEXPECTED,
@@ -155,7 +155,7 @@ fn derivative_of(input: ParseStream<'_>) -> syn::Result<Target> {
         return Err(DERIVATIVE.error(place, message));
     }
     let is_state = name::peek_word(&content).is_some();
-    let target = is_state.then(|| group::target(&content)).transpose()?;
+    let target = is_state.then(|| target::target(&content)).transpose()?;
     let Some(target) = target.filter(|_| content.is_empty()) else {
         let message = "`der` takes the name of one state, as in `der(x) = …;`";
         return Err(DERIVATIVE.error(content.span(), message));

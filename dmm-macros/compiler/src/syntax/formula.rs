@@ -1,17 +1,18 @@
 //! Tokens → formula: precedence climbing over `+ - * / % ^`, unary minus, calls, elements, sums
-//! and parentheses.
+//! and parentheses; and ranges, which sums and loops go through.
 
 use proc_macro2::Ident;
 use syn::parse::ParseStream;
 use syn::{Lit, Token, parenthesized, token};
 
 use super::expression::{Expression, ExpressionKind, Operator};
-use super::{mistake, name, number, range};
+use super::mistake::{self, SUM_FORM};
+use super::{Range, name, number};
 use crate::diagnostics::Extent;
-use crate::diagnostics::catalogue::syntax::{BRANCH, DEPTH, INDEX, PATH};
+use crate::diagnostics::catalogue::syntax::{BRANCH, DEPTH, INDEX, PATH, RANGE, SUM};
 
 /// Parentheses, signs, exponents and indices may be nested this deep.
-pub(super) const DEEPEST_NESTING: usize = 64;
+const DEEPEST_NESTING: usize = 64;
 
 /// A whole formula, as far as it reaches.
 pub(super) fn formula(input: ParseStream<'_>) -> syn::Result<Expression> {
@@ -19,7 +20,7 @@ pub(super) fn formula(input: ParseStream<'_>) -> syn::Result<Expression> {
 }
 
 /// product (± product)*
-pub(super) fn terms(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
+fn terms(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
     let mut left = product(input, nesting)?;
     loop {
         let operator = if input.peek(Token![+]) && !input.peek(Token![+=]) {
@@ -94,7 +95,7 @@ fn power(input: ParseStream<'_>, nesting: usize) -> syn::Result<Expression> {
 }
 
 /// The next depth of nesting, if there may be one.
-pub(super) fn deeper(input: ParseStream<'_>, nesting: usize) -> syn::Result<usize> {
+fn deeper(input: ParseStream<'_>, nesting: usize) -> syn::Result<usize> {
     if nesting >= DEEPEST_NESTING {
         return Err(DEPTH.error(
             input.span(),
@@ -159,7 +160,7 @@ fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Ex
         return Err(PATH.error(ident, advice));
     }
     if text == "sum" && input.peek(token::Paren) {
-        return range::sum(input, ident, nesting);
+        return sum(input, ident, nesting);
     }
     if text != "der"
         && let Some(refusal) = name::refusal_of_word(ident)
@@ -185,8 +186,8 @@ fn call(input: ParseStream<'_>, function: &Ident, nesting: usize) -> syn::Result
     let content;
     let parentheses = parenthesized!(content in input);
     let whole = Extent::from(function).to(parentheses.span.close());
-    if range::counts(&content) {
-        return Err(range::no_sum(function, whole));
+    if counts(&content) {
+        return Err(mistake::no_sum(function, whole));
     }
     let mut arguments = Vec::new();
     while !content.is_empty() {
@@ -236,4 +237,79 @@ pub(super) fn index(
         return Err(INDEX.error(input.span(), message));
     }
     Ok((index, brackets.span.close().into()))
+}
+
+/// Whether the parentheses with `content` begin with `i in`.
+fn counts(content: ParseStream<'_>) -> bool {
+    name::peek_word(content).is_some() && content.peek2(Token![in])
+}
+
+/// The rest of `sum(i in start..end, term)`.
+fn sum(input: ParseStream<'_>, word: &Ident, nesting: usize) -> syn::Result<Expression> {
+    let nesting = deeper(input, nesting)?;
+    let content;
+    let parentheses = parenthesized!(content in input);
+    let whole = Extent::from(word).to(parentheses.span.close());
+    if !counts(&content) {
+        return Err(SUM.error(whole, SUM_FORM));
+    }
+    let variable = name::declared(&content)?;
+    content.parse::<Token![in]>()?;
+    let range = range(&content, nesting)?;
+    if content.is_empty() {
+        let message = format!("the term of the sum is missing: {SUM_FORM}");
+        return Err(SUM.error(whole, message));
+    }
+    if !content.peek(Token![,]) {
+        return Err(mistake::unexpected(&content, &range.end));
+    }
+    content.parse::<Token![,]>()?;
+    let term = terms(&content, nesting)?;
+    if content.peek(Token![,]) {
+        content.parse::<Token![,]>()?;
+        if !content.is_empty() {
+            let message = format!("{SUM_FORM}, with one term; put sums into each other");
+            return Err(SUM.error(content.span(), message));
+        }
+    }
+    if !content.is_empty() {
+        return Err(mistake::unexpected(&content, &term));
+    }
+    let kind = ExpressionKind::Sum {
+        variable,
+        range: Box::new(range),
+        term: Box::new(term),
+    };
+    Expression::new(kind, whole)
+}
+
+/// `start..end`
+pub(super) fn range(input: ParseStream<'_>, nesting: usize) -> syn::Result<Range> {
+    if input.peek(Token![..]) {
+        return Err(RANGE.error(input.span(), "a range has a start: write `0..n`"));
+    }
+    if input.peek(token::Paren) && name::group_has(input, &['.', '.']) {
+        let message = "a range stands without parentheses: write `0..n`";
+        return Err(RANGE.error(input.span(), message));
+    }
+    let start = terms(input, nesting)?;
+    if input.peek(Token![..=]) {
+        input.parse::<Token![..=]>()?;
+        let end = terms(input, nesting)?;
+        return Err(mistake::inclusive(&start, &end));
+    }
+    if input.peek(Token![...]) || !input.peek(Token![..]) {
+        return Err(mistake::no_range(input, &start));
+    }
+    let dots: Token![..] = input.parse()?;
+    if input.is_empty() || input.peek(Token![,]) || input.peek(token::Brace) {
+        let place = start.extent.to(dots.spans[1]);
+        return Err(RANGE.error(place, format!("a range has an end: write `{start}..n`")));
+    }
+    let end = terms(input, nesting)?;
+    if input.peek(Token![..]) {
+        let message = "a range counts by one: use a formula of the index, such as `q[2*i]`";
+        return Err(RANGE.error(input.span(), message));
+    }
+    Ok(Range { start, end })
 }

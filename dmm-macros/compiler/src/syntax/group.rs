@@ -1,14 +1,13 @@
-//! Groups `q[3]`: how states and parameters are declared, and what a `der` or a canonical pair
-//! is about.
+//! Groups `q[3]`: how states and parameters are declared.
 
 use proc_macro2::Ident;
 use syn::parse::ParseStream;
 use syn::{Attribute, Token, bracketed, token};
 
 use super::definition::{after_formula, equals, joined, list, no_type};
-use super::{Defaults, Expression, Group, Item, ParameterItem, Target};
+use super::{Defaults, Expression, Group, Item, ParameterItem};
 use super::{documentation, formula, mistake, name};
-use crate::diagnostics::catalogue::syntax::{DEFAULT, GROUP, INDEX, INITIAL_VALUE};
+use crate::diagnostics::catalogue::syntax::{DEFAULT, GROUP, INITIAL_VALUE};
 use crate::diagnostics::{Diagnostics, Extent};
 
 /// `x, q[3];`
@@ -184,25 +183,4 @@ fn each(input: ParseStream<'_>, group: &mut Group) -> syn::Result<(Defaults, Ext
         return Err(GROUP.error(Extent::from(&group.ident).to(place), message));
     }
     Ok((Defaults::Each(formulas, place), place))
-}
-
-/// `x` or `q[i]`
-pub(super) fn target(input: ParseStream<'_>) -> syn::Result<Target> {
-    let ident = name::declared(input)?;
-    let mut extent = Extent::from(&ident);
-    let mut index = None;
-    if input.peek(token::Bracket) {
-        let (formula, close) = formula::index(input, &ident, 0)?;
-        extent = extent.to(close);
-        index = Some(formula);
-    }
-    if input.peek(token::Paren) {
-        let message = format!("an element of a group is written with brackets, as in `{ident}[0]`");
-        return Err(INDEX.error(input.span(), message));
-    }
-    Ok(Target {
-        ident,
-        index,
-        extent,
-    })
 }

@@ -5,31 +5,16 @@ use syn::parse::ParseStream;
 use syn::{Attribute, Token, braced, token};
 
 use super::definition::{conserved, definitions, derivative, interface};
-use super::{ConservedItem, Definition, Item, RegionItem};
-use super::{canonical, condition, documentation, group, name, range, unknown};
-use crate::diagnostics::Diagnostics;
-use crate::diagnostics::catalogue::syntax::{ASSUME, ATTRIBUTE, NAME, NOT_YET, REGION};
+use super::place::Place;
+use super::{ConservedItem, Definition, ForItem, Item, RegionItem};
+use super::{canonical, condition, documentation, formula, group, mistake, name, unknown};
+use crate::diagnostics::catalogue::syntax::{
+    ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, NOT_YET, REGION,
+};
+use crate::diagnostics::{Diagnostics, Extent};
 
-/// Where an item stands.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    /// In the system's block.
-    System,
-    /// In a region's block.
-    Region,
-    /// In as many loops.
-    Loop(usize),
-}
-
-impl Place {
-    /// The number of loops around it.
-    pub(super) fn loops(self) -> usize {
-        match self {
-            Self::System | Self::Region => 0,
-            Self::Loop(depth) => depth,
-        }
-    }
-}
+/// Loops may be nested this deep.
+const DEEPEST_LOOP: usize = 8;
 
 /// The items up to the end of a block. What is wrong is reported, and parsing goes on.
 pub(super) fn items(
@@ -128,7 +113,7 @@ fn behind_keyword(
             assumed: false,
         }),
         "assume" => Item::Conserved(assumed(input, attributes)?),
-        "for" => Item::For(range::repeat(input, &attributes, place, diagnostics)?),
+        "for" => Item::For(repeat(input, &attributes, place, diagnostics)?),
         _ => {
             let message = "state jumps (`on`) are not supported yet: a trajectory is continuous across an interface";
             return Err(NOT_YET.error(keyword, message));
@@ -196,4 +181,56 @@ fn no_block(input: ParseStream<'_>, ident: &Ident) -> syn::Error {
         let message = "expected `where …` or the region's block `{ … }`";
         REGION.error(input.span(), message)
     }
+}
+
+/// The rest of `for i in start..end { … }`, in a block at `place`.
+fn repeat(
+    input: ParseStream<'_>,
+    attributes: &[Attribute],
+    place: Place,
+    diagnostics: &mut Diagnostics,
+) -> syn::Result<ForItem> {
+    const FORM: &str = "a loop is written `for i in 0..n { … }`";
+    if let Some(first) = attributes.first() {
+        let message = "a loop leaves nothing behind that could be documented: write `//`, or document the items in it";
+        diagnostics.report(ATTRIBUTE, first.pound_token.span, message);
+    }
+    if input.peek(token::Paren) {
+        return Err(LOOP.error(input.span(), FORM));
+    }
+    let variable = name::declared(input)?;
+    if input.peek(Token![,]) {
+        let message = format!("{FORM}, with one index; put loops into each other");
+        return Err(LOOP.error(input.span(), message));
+    }
+    if !input.peek(Token![in]) {
+        return Err(LOOP.error(input.span(), FORM));
+    }
+    input.parse::<Token![in]>()?;
+    let range = formula::range(input, 0)?;
+    if input.peek(Token![,]) {
+        let message = format!("{FORM}, with one index; put loops into each other");
+        return Err(LOOP.error(input.span(), message));
+    }
+    if !input.peek(token::Brace) {
+        let place = if name::begins_item(input) || input.is_empty() || input.peek(Token![;]) {
+            Extent::from(&variable).to(range.end.extent)
+        } else {
+            return Err(mistake::unexpected(input, &range.end));
+        };
+        let message = "the items that the loop repeats stand in a block `{ … }`";
+        return Err(LOOP.error(place, message));
+    }
+    let depth = place.loops() + 1;
+    if depth > DEEPEST_LOOP {
+        return Err(DEPTH.error(&variable, "loops are nested too deeply"));
+    }
+    let body;
+    braced!(body in input);
+    let items = items(&body, Place::Loop(depth), diagnostics);
+    Ok(ForItem {
+        variable,
+        range,
+        items,
+    })
 }

@@ -1,5 +1,7 @@
 //! The mistakes that newcomers make in formulas, each with what to write instead.
 
+mod range;
+
 use proc_macro2::Ident;
 use syn::parse::ParseStream;
 use syn::{Lit, LitInt, Token, token};
@@ -12,6 +14,7 @@ use crate::diagnostics::catalogue::syntax::{
     RANGE, SEMICOLON, TYPE, UNEXPECTED,
 };
 use crate::diagnostics::{Code, Extent};
+pub(super) use range::{SUM_FORM, inclusive, no_range, no_sum};
 
 /// `x**2`
 pub(super) fn refuse_double_star(input: ParseStream<'_>) -> syn::Result<()> {

@@ -49,8 +49,9 @@ mod item;
 mod mistake;
 mod name;
 mod number;
+mod place;
 mod print;
-mod range;
+mod target;
 mod unknown;
 
 #[cfg(test)]
@@ -68,6 +69,7 @@ pub use declaration::{
 };
 pub use expression::{Expression, ExpressionKind, Operator};
 pub(crate) use name::{is_identifier, is_name_of_type};
+use place::Place;
 
 /// Brackets of any kind may be nested this deep. It is more than the grammar can use, and little
 /// enough for the recursive descent into them.
@@ -157,7 +159,7 @@ fn system(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<
     }
     let body;
     braced!(body in input);
-    let items = item::items(&body, item::Place::System, diagnostics);
+    let items = item::items(&body, Place::System, diagnostics);
     if !input.is_empty() {
         let message = "one `pws!` declares one system; write another `pws!` for the next";
         diagnostics.report(ONE_SYSTEM, input.span(), message);

@@ -4,8 +4,8 @@ use proc_macro2::{Group, Ident};
 use syn::parse::ParseStream;
 use syn::{Lit, Token, token};
 
-use super::item::Place;
 use super::name;
+use super::place::Place;
 use crate::diagnostics::catalogue::syntax::{
     COMMENT, DERIVATIVE, FUNCTION, INITIAL_VALUE, MISPLACED_ITEM, ONE_SYSTEM, SEMICOLON,
     UNKNOWN_ITEM,

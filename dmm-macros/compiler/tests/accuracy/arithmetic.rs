@@ -23,29 +23,37 @@ pub(crate) fn big(value: f64) -> Option<Big> {
 pub(crate) fn doubles(dag: &Dag, roots: &[Id], point: &BTreeMap<Name, f64>) -> Vec<f64> {
     let mut values: BTreeMap<Id, f64> = BTreeMap::new();
     for id in dag.reachable(roots.iter().copied()) {
-        let of = |child: &Id| values[child];
         let value = match &dag[id] {
-            Math::Pi => std::f64::consts::PI,
-            Math::Constant(value) => value.to_f64().unwrap_or(f64::NAN),
             Math::Variable(name) => point.get(name).copied().unwrap_or(f64::NAN),
-            Math::Neg(a) => -of(a),
-            Math::Add([a, b]) => of(a) + of(b),
-            Math::Sub([a, b]) => of(a) - of(b),
-            Math::Mul([a, b]) => of(a) * of(b),
-            Math::Div([a, b]) => of(a) / of(b),
-            Math::Pow([a, b]) => match dag.as_integer(*b).map(i32::try_from) {
-                Some(Ok(n)) => of(a).powi(n),
-                _ => of(a).powf(of(b)),
-            },
-            Math::Call(function, a) => call(*function, of(a)),
-            Math::Pair(function, [a, b]) => pair(*function, of(a), of(b)),
+            _ => operation(dag, id, |child| values[&child]),
         };
         values.insert(id, value);
     }
     roots.iter().map(|root| values[root]).collect()
 }
 
-fn call(function: Function, u: f64) -> f64 {
+/// The value of a node that is no variable, from the values of its operands.
+pub(crate) fn operation(dag: &Dag, id: Id, of: impl Fn(Id) -> f64) -> f64 {
+    match dag[id] {
+        Math::Pi => std::f64::consts::PI,
+        Math::Constant(ref value) => value.to_f64().unwrap_or(f64::NAN),
+        Math::Variable(_) => f64::NAN,
+        Math::Neg(a) => -of(a),
+        Math::Add([a, b]) => of(a) + of(b),
+        Math::Sub([a, b]) => of(a) - of(b),
+        Math::Mul([a, b]) => of(a) * of(b),
+        Math::Div([a, b]) => of(a) / of(b),
+        Math::Pow([a, b]) => match dag.as_integer(b).map(i32::try_from) {
+            Some(Ok(n)) => of(a).powi(n),
+            _ => of(a).powf(of(b)),
+        },
+        Math::Call(function, a) => call(function, of(a)),
+        Math::Pair(function, [a, b]) => pair(function, of(a), of(b)),
+    }
+}
+
+/// The value of a function of one argument.
+pub(crate) fn call(function: Function, u: f64) -> f64 {
     use Function::*;
     match function {
         Sqrt => u.sqrt(),

@@ -13,8 +13,8 @@ use std::collections::BTreeMap;
 use arithmetic::{Big, big, doubles, exact};
 use dmm_compiler::algebra::{Dag, Id, Name, evaluate_bounded};
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::emit::{Evaluated, Operations};
 use dmm_compiler::model::Model;
+use dmm_compiler::program::{Function, Functions, Program, Quantity};
 use dmm_compiler::scheme::{RegionScheme, Scheme, Strategy};
 use dmm_compiler::{derive, syntax};
 use proc_macro2::TokenStream;
@@ -24,7 +24,7 @@ const DECADES: std::ops::RangeInclusive<i32> = 0..=12;
 
 /// The errors of one function.
 pub(crate) struct Row {
-    /// System, region and method.
+    /// System, region and function.
     pub(crate) function: [String; 3],
     /// As they are written.
     pub(crate) written: Errors,
@@ -82,20 +82,20 @@ pub(crate) fn scheme(declaration: TokenStream) -> Result<Scheme, String> {
 
 /// Measures every function of `scheme` at `points` points a step size.
 pub(crate) fn measure(scheme: &Scheme, points: usize) -> Vec<Row> {
-    let operations = Operations::new(scheme);
+    let (written, optimised) = (Program::as_written(scheme), Program::new(scheme));
     let mut rows = Vec::new();
     for (index, region) in scheme.regions.iter().enumerate() {
-        let written = operations.written(index);
-        let optimised = operations.optimised(index);
-        for (written, optimised) in written.iter().zip(&optimised) {
-            let Some(derived) = derived(scheme, index, region, written.name) else {
+        let written = &written.dynamics[index].functions;
+        let optimised = &optimised.dynamics[index].functions;
+        for (function, cheaper) in written.all.iter().zip(&optimised.all) {
+            let Some(derived) = derived(scheme, index, region, function.quantity) else {
                 continue;
             };
             let mut row = Row {
                 function: [
                     scheme.model.name.to_string(),
                     scheme.model.regions[index].ident.to_string(),
-                    written.name.to_owned(),
+                    format!("{:?}", function.quantity),
                 ],
                 written: Errors::default(),
                 optimised: Errors::default(),
@@ -104,7 +104,8 @@ pub(crate) fn measure(scheme: &Scheme, points: usize) -> Vec<Row> {
             for decade in DECADES {
                 for _ in 0..points {
                     let point = random.point(scheme, region, 10f64.powi(-decade));
-                    row.sample(scheme.dag(), &derived, [written, optimised], &point);
+                    let functions = [(written, function), (optimised, cheaper)];
+                    row.sample(scheme.dag(), &derived, functions, &point);
                 }
             }
             rows.push(row);
@@ -119,18 +120,22 @@ impl Row {
         &mut self,
         dag: &Dag,
         derived: &[Id],
-        [written, optimised]: [&Evaluated<'_>; 2],
+        functions: [(&Functions, &Function); 2],
         point: &BTreeMap<Name, f64>,
     ) {
         let Some(expected) = exact(dag, derived, point) else {
             return;
         };
-        let bounds = evaluate_bounded(written.dag(), &written.roots, point);
-        let before = doubles(written.dag(), &written.roots, point);
-        let after = doubles(optimised.dag(), &optimised.roots, point);
+        let [written, optimised] = functions.map(|(functions, function)| {
+            let (dag, roots) = (functions.lowered.dag(), function.results.roots());
+            (dag, roots)
+        });
+        let bounds = evaluate_bounded(written.0, &written.1, point);
+        let before = doubles(written.0, &written.1, point);
+        let after = doubles(optimised.0, &optimised.1, point);
         for (entry, expected) in expected.iter().enumerate() {
-            let takes_operations = |of: &Evaluated<'_>| of.dag().tree_size(of.roots[entry]) > 1;
-            if takes_operations(written) || takes_operations(optimised) {
+            let takes_operations = |(dag, roots): &(&Dag, Vec<Id>)| dag.tree_size(roots[entry]) > 1;
+            if takes_operations(&written) || takes_operations(&optimised) {
                 let bound = bounds[entry].1;
                 self.written.push(before[entry], expected, bound);
                 self.optimised.push(after[entry], expected, bound);
@@ -139,24 +144,29 @@ impl Row {
     }
 }
 
-/// The results of a method as they were derived, in its order; nothing for those that are made
+/// The results of a function as they were derived, in its order; nothing for those that are made
 /// while lowering.
-fn derived(scheme: &Scheme, index: usize, region: &RegionScheme, method: &str) -> Option<Vec<Id>> {
+fn derived(
+    scheme: &Scheme,
+    index: usize,
+    region: &RegionScheme,
+    quantity: Quantity,
+) -> Option<Vec<Id>> {
     let declared = &scheme.model.regions[index];
     let psi: Vec<Id> = declared.conserved.iter().map(|one| one.psi).collect();
-    match method {
-        "vector_field" => return Some(declared.field.clone()),
-        "conserved" => return Some(psi),
-        "multiplier" => return Some([psi, region.multiplier.concat()].concat()),
-        "conserved_size" => return None,
+    match quantity {
+        Quantity::VectorField => return Some(declared.field.clone()),
+        Quantity::Conserved => return Some(psi),
+        Quantity::Multiplier => return Some(row_by_row(&psi, &region.multiplier)),
+        Quantity::ConservedSize => return None,
         _ => {}
     }
     match &region.strategy {
         Strategy::Midpoint { field }
         | Strategy::SkewPairing { field, .. }
-        | Strategy::CrossProduct { field, .. } => Some(match method {
-            "discrete_vector_field" => field.value.clone(),
-            "linearised" => row_by_row(&field.value, &field.jacobian),
+        | Strategy::CrossProduct { field, .. } => Some(match quantity {
+            Quantity::DiscreteVectorField => field.value.clone(),
+            Quantity::Linearised => row_by_row(&field.value, &field.jacobian),
             _ => field.time_derivative.clone(),
         }),
         Strategy::MinimalNorm {
@@ -169,11 +179,11 @@ fn derived(scheme: &Scheme, index: usize, region: &RegionScheme, method: &str) -
         } => {
             let mut results = row_by_row(&mean.value, &region.discrete_multiplier);
             results.extend(&region.discrete_time_derivative);
-            if method == "linearised" {
+            if quantity == Quantity::Linearised {
                 for matrix in [&mean.jacobian, transposed_jacobian, constraint_jacobian] {
                     results.extend(matrix.concat());
                 }
-            } else if method == "time_derivative" {
+            } else if quantity == Quantity::TimeDerivative {
                 results.extend(&mean.time_derivative);
                 results.extend(transposed_time_derivative);
                 results.extend(constraint_time_derivative);

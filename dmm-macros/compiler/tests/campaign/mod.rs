@@ -15,8 +15,8 @@ mod term;
 pub(crate) mod truth;
 
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::emit::{Evaluated, Operations};
 use dmm_compiler::model::{Conservation, Conserved, DomainCondition, Model};
+use dmm_compiler::program::{Functions, Program, Quantity};
 use dmm_compiler::{check, proofs, scheme, syntax};
 
 use arithmetic::doubles;
@@ -168,23 +168,23 @@ fn beyond_conditions(model: Model, case: &mut Case, random: &mut Random) {
         case.remarks = diagnostics.messages();
         return;
     };
-    let operations = Operations::new(&scheme);
+    let program = Program::new(&scheme);
     for (index, region) in scheme.model.regions.iter().enumerate() {
-        let functions = operations.optimised(index);
+        let functions = &program.dynamics[index].functions;
         for (quantity, psi) in region.conserved.iter().enumerate() {
             let Conservation::Proved(conditions) = &psi.evidence else {
                 continue;
             };
             for &condition in conditions {
                 case.conditions += 1;
-                match run_beyond(&scheme.model, index, psi, condition, &functions, random) {
+                match run_beyond(&scheme.model, index, psi, condition, functions, random) {
                     Beyond::NoPoint => {}
                     Beyond::Right => case.beyond += 1,
                     Beyond::Wrong(place) => {
                         case.beyond += 1;
-                        let guards = &scheme.regions[index].guards;
-                        if guards.iter().any(|guard| {
-                            guard.condition == condition && guard.quantities.contains(&quantity)
+                        let checked = &scheme.regions[index].checked;
+                        if checked.iter().any(|one| {
+                            one.condition == condition && one.quantities.contains(&quantity)
                         }) {
                             continue;
                         }
@@ -213,7 +213,7 @@ fn run_beyond(
     index: usize,
     psi: &Conserved,
     condition: DomainCondition,
-    functions: &[Evaluated<'_>],
+    functions: &Functions,
     random: &mut Random,
 ) -> Beyond {
     let region = &model.regions[index];
@@ -224,16 +224,19 @@ fn run_beyond(
             continue;
         }
         seen = true;
-        let is_finite = |name: &str| {
-            let function = functions.iter().find(|function| function.name == name);
-            function.is_none_or(|function| {
-                let values = doubles(function.dag(), &function.roots, &point);
+        let is_finite = |quantity: Quantity| {
+            functions.get(quantity).is_none_or(|function| {
+                let roots = function.results.roots();
+                let values = doubles(functions.lowered.dag(), &roots, &point);
                 values.iter().all(|value| value.is_finite())
             })
         };
-        let runs = ["vector_field", "conserved", "multiplier"]
-            .into_iter()
-            .all(is_finite);
+        let at_point = [
+            Quantity::VectorField,
+            Quantity::Conserved,
+            Quantity::Multiplier,
+        ];
+        let runs = at_point.into_iter().all(is_finite);
         if runs && is_zero(model, region, psi.psi, &point) == Some(false) {
             return Beyond::Wrong(point);
         }

@@ -1,6 +1,8 @@
 //! The derived schemes: which strategy fits, what f^τ is, that it is right at random points,
 //! and what is printed and emitted.
 
+#[path = "../support/corpus.rs"]
+mod corpus;
 mod fields;
 mod numbers;
 mod snapshots;

@@ -55,9 +55,10 @@ impl<Sys: System<N>, const N: usize> Solout<f64, [f64; N]> for Crossings<'_, '_,
         }
         for _ in 0..MOST_CORRECTIONS {
             let secant = low + (high - low) * g_low / (g_low - g_high);
-            let middle = match secant > low && secant < high {
-                true => secant,
-                false => 0.5 * (low + high),
+            let middle = if secant > low && secant < high {
+                secant
+            } else {
+                0.5 * (low + high)
             };
             if middle <= low || middle >= high {
                 break;

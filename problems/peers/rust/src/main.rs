@@ -10,7 +10,7 @@ use std::error::Error;
 use std::io::{BufRead, Write};
 
 use cpu_time::ThreadTime;
-use dmm_problems::problem::Card;
+use dmm_problems::problem::Description;
 use dmm_problems::systems::*;
 use dmm_runtime::System;
 use serde_json::{Value, json};
@@ -62,16 +62,16 @@ fn run(problem: &str, peer: &str, tolerance: &str, t_end: &str, repeats: &str) -
         repeats: repeats.parse()?,
     };
     match problem {
-        "harmonic" => task.timed(Harmonic::default(), &harmonic::CARD),
-        "elliptic" => task.timed(Elliptic::default(), &elliptic::CARD),
-        "pendulum" => task.timed(Pendulum::default(), &pendulum::CARD),
+        "harmonic" => task.timed(Harmonic::default(), &harmonic::DESCRIPTION),
+        "elliptic" => task.timed(Elliptic::default(), &elliptic::DESCRIPTION),
+        "pendulum" => task.timed(Pendulum::default(), &pendulum::DESCRIPTION),
         "lotka_volterra_periodic" => {
-            task.timed(LotkaVolterra::default(), &lotka_volterra_periodic::CARD)
+            task.timed(LotkaVolterra::default(), &lotka_volterra_periodic::DESCRIPTION)
         }
-        "damped" => task.timed(Damped::default(), &damped::CARD),
-        "spiral" => task.timed(Spiral::default(), &spiral::CARD),
-        "rigid_body" => task.timed(RigidBody::default(), &rigid_body::CARD),
-        "kepler_refraction" => task.timed(KeplerRefraction::default(), &kepler_refraction::CARD),
+        "damped" => task.timed(Damped::default(), &damped::DESCRIPTION),
+        "spiral" => task.timed(Spiral::default(), &spiral::DESCRIPTION),
+        "rigid_body" => task.timed(RigidBody::default(), &rigid_body::DESCRIPTION),
+        "kepler_refraction" => task.timed(KeplerRefraction::default(), &kepler_refraction::DESCRIPTION),
         _ => Err(format!("no problem `{problem}` here").into()),
     }
 }
@@ -84,8 +84,8 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    fn timed<Sys: System<N>, const N: usize>(&self, system: Sys, card: &Card) -> Outcome<Value> {
-        let initial: [f64; N] = card.initial.try_into()?;
+    fn timed<Sys: System<N>, const N: usize>(&self, system: Sys, description: &Description) -> Outcome<Value> {
+        let initial: [f64; N] = description.initial.try_into()?;
         let mut seconds = Vec::new();
         let mut last = None;
         for _ in 0..self.repeats.max(1) {

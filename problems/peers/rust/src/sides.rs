@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use dmm_runtime::{Boundary, Flow, FlowVisitor, System, Vector};
+use dmm_runtime::{Guards, Dynamics, DynamicsVisitor, System, Vector};
 
 pub struct Sides<'a, Sys: System<N>, const N: usize> {
     system: &'a Sys,
@@ -16,12 +16,12 @@ struct Field<'a, const N: usize> {
     x: &'a Vector<f64, N>,
 }
 
-impl<const N: usize> FlowVisitor<N> for Field<'_, N> {
+impl<const N: usize> DynamicsVisitor<N> for Field<'_, N> {
     type Output = Vector<f64, N>;
 
     #[inline(always)]
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> Vector<f64, N> {
-        flow.vector_field(self.t, self.x)
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> Vector<f64, N> {
+        dynamics.vector_field(self.t, self.x)
     }
 }
 
@@ -30,12 +30,12 @@ struct Switching<'a, const N: usize> {
     x: &'a Vector<f64, N>,
 }
 
-impl<const N: usize> FlowVisitor<N> for Switching<'_, N> {
+impl<const N: usize> DynamicsVisitor<N> for Switching<'_, N> {
     type Output = f64;
 
     #[inline(always)]
-    fn visit<const M: usize, F: Flow<f64, N, M>>(self, flow: &F) -> f64 {
-        flow.boundary().switching_function(0, self.t, self.x)
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> f64 {
+        dynamics.guards().switching_function(0, self.t, self.x)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::method::{Control, Method};
+use dmm_problems::method::{Control, MethodName};
 use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;
 use dmm_problems::registry;
@@ -77,7 +77,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
 fn problems(arguments: &Arguments) -> Result<Vec<Box<dyn Problem>>, Failure> {
     if arguments.problems.is_empty() {
         let mut all = registry::all();
-        all.retain(|problem| problem.card().reference.is_some());
+        all.retain(|problem| problem.description().reference.is_some());
         return Ok(all);
     }
     let names = arguments.problems.iter();
@@ -85,8 +85,8 @@ fn problems(arguments: &Arguments) -> Result<Vec<Box<dyn Problem>>, Failure> {
 }
 
 fn measure(problem: &dyn Problem, goal: &Goal, rounds: u32, bar: &ProgressBar) -> Vec<Setting> {
-    let methods: Vec<Method> = Method::all().collect();
-    bar.set_message(problem.card().name);
+    let methods: Vec<MethodName> = MethodName::all().collect();
+    bar.set_message(problem.description().name);
     goal.measure(problem, &methods, rounds, || bar.inc(1))
 }
 
@@ -106,7 +106,7 @@ const HEADER: [&str; 12] = [
 ];
 
 /// What decides the steps of a scheme, in a word.
-fn control(method: Method) -> &'static str {
+fn control(method: MethodName) -> &'static str {
     match method.control() {
         Control::StepSize { .. } => "step size",
         Control::Tolerance => "tolerance",
@@ -121,7 +121,7 @@ fn write(
 ) -> Result<(), Failure> {
     for setting in settings {
         let mut row = vec![
-            problem.card().name.to_owned(),
+            problem.description().name.to_owned(),
             goal.t.to_string(),
             goal.origin.describe().to_owned(),
             setting.method.name().to_owned(),
@@ -147,8 +147,8 @@ fn header() -> Vec<String> {
 
 /// A row a scheme.
 fn add(table: &mut Table, problem: &dyn Problem, goal: &Goal, settings: &[Setting]) {
-    for method in Method::all() {
-        let name = format!("{}, t = {}", problem.card().name, short(goal.t));
+    for method in MethodName::all() {
+        let name = format!("{}, t = {}", problem.description().name, short(goal.t));
         let cells = LEVELS.map(|level| match fastest(settings, method, level) {
             Some(setting) => {
                 let [least, median, most] = setting.spread().map(|seconds| 1e3 * seconds);
@@ -162,29 +162,31 @@ fn add(table: &mut Table, problem: &dyn Problem, goal: &Goal, settings: &[Settin
 
 /// A time of comparison: whole, but for those at which something happens.
 fn short(t: f64) -> String {
-    match t.fract() == 0.0 {
-        true => output::number(t),
-        false => format!("{t:.3}"),
+    if t.fract() == 0.0 {
+        output::number(t)
+    } else {
+        format!("{t:.3}")
     }
 }
 
 /// A scheme, apart from its other form of the same name.
-fn label(method: Method) -> String {
-    let other = Method::find(method.name(), method.control() != Control::Tolerance);
-    match other == Some(method) {
-        true => method.name().to_owned(),
-        false => format!("{}, by {}", method.name(), control(method)),
+fn label(method: MethodName) -> String {
+    let other = MethodName::find(method.name(), method.control() != Control::Tolerance);
+    if other == Some(method) {
+        method.name().to_owned()
+    } else {
+        format!("{}, by {}", method.name(), control(method))
     }
 }
 
 fn panel(problem: &dyn Problem, goal: &Goal, settings: &[Setting]) -> Panel {
-    let title = format!("{}, t = {}", problem.card().name, short(goal.t));
+    let title = format!("{}, t = {}", problem.description().name, short(goal.t));
     let mut panel = Panel::new(
         title,
         Axis::new("final error", Scale::Decades),
         Axis::new("time (s)", Scale::Decades),
     );
-    for (k, method) in Method::all().enumerate() {
+    for (k, method) in MethodName::all().enumerate() {
         let own = settings.iter().filter(|setting| setting.method == method);
         let points = own
             .map(|setting| (setting.error, setting.spread()[0]))

@@ -71,7 +71,7 @@ pub(crate) fn conserve(arguments: &Arguments) -> Result<(), Failure> {
             Ok(row) => row,
             Err(Failure::Stopped(reason)) => {
                 // the others go on
-                stopped.get_or_insert(format!("{}: {reason}", problem.card().name));
+                stopped.get_or_insert(format!("{}: {reason}", problem.description().name));
                 continue;
             }
             Err(failure) => return Err(failure),
@@ -79,7 +79,7 @@ pub(crate) fn conserve(arguments: &Arguments) -> Result<(), Failure> {
         let (kept, bare) = row;
         let steps = kept.statistics.steps.to_string();
         let transitions = kept.statistics.transitions.to_string();
-        let name = problem.card().name.to_owned();
+        let name = problem.description().name.to_owned();
         let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
         csv.row([
             name.clone(),
@@ -127,7 +127,7 @@ fn row(
     let t_end = run.step_size * arguments.steps as f64;
     let run = Run {
         t_end: problem
-            .card()
+            .description()
             .longest
             .map_or(t_end, |longest| t_end.min(longest)),
         ..run
@@ -137,7 +137,7 @@ fn row(
         ..run.clone()
     };
     let bar = progress::bar((2.0 * run.t_end) as u64, 2.0 * arguments.steps as f64);
-    bar.set_message(problem.card().name);
+    bar.set_message(problem.description().name);
     let kept = conservation::measure(problem, &run, &mut |t| bar.set_position(t as u64))?;
     let offset = run.t_end;
     let bare = conservation::measure(problem, &bare, &mut |t| {

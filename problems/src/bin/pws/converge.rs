@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, fitted_order, norms};
-use dmm_problems::method::{Control, Method};
+use dmm_problems::method::{Control, MethodName};
 use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;
 use dmm_problems::truth::Truth;
@@ -55,7 +55,7 @@ pub(crate) struct Arguments {
 pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &arguments.parameters)?;
     let problem = &*problem;
-    let card = problem.card();
+    let description = problem.description();
     let initial = input::initial(problem, arguments.initial.as_deref())?;
     let method = scheme::named(&arguments.scheme, false)?;
     let step = arguments.step.unwrap_or_else(|| largest_step(method));
@@ -75,14 +75,14 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
         t_end: if problem.interfaces().is_empty() {
             arguments.end
         } else {
-            card.t_end
+            description.t_end
         },
         initial,
     };
     let out = arguments
         .out
         .clone()
-        .unwrap_or_else(|| Path::new("output").join(card.name));
+        .unwrap_or_else(|| Path::new("output").join(description.name));
     output::directory(&out)?;
     let steps = plan.t_end
         / plan
@@ -110,7 +110,7 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// p, where errors are O(τᵖ).
-fn exponent(method: Method) -> i32 {
+fn exponent(method: MethodName) -> i32 {
     match method.control() {
         Control::StepSize { order } => order,
         Control::Tolerance => 1,
@@ -118,7 +118,7 @@ fn exponent(method: Method) -> i32 {
 }
 
 /// Where the errors of a scheme are about to fall with its order.
-fn largest_step(method: Method) -> f64 {
+fn largest_step(method: MethodName) -> f64 {
     match exponent(method) {
         ..=3 => 1.0 / 64.0,
         4 | 5 => 1.0 / 16.0,
@@ -143,8 +143,13 @@ fn default_after(problem: &dyn Problem, initial: &[f64]) -> Result<Vec<usize>, F
     if problem.interfaces().is_empty() {
         return Ok(vec![0]);
     }
-    let truth = Truth::of(problem, initial, MOST_TRANSITIONS, problem.card().t_end)
-        .map_err(StudyError::from)?;
+    let truth = Truth::of(
+        problem,
+        initial,
+        MOST_TRANSITIONS,
+        problem.description().t_end,
+    )
+    .map_err(StudyError::from)?;
     Ok(convergence::default_after(truth.nodes.len() - 1))
 }
 
@@ -205,7 +210,7 @@ fn print(problem: &dyn Problem, study: &Study) -> Result<(), Failure> {
     writeln!(
         out,
         "{}: errors against {}",
-        problem.card().name,
+        problem.description().name,
         study.origin.describe()
     )?;
     let (first, last) = (study.step_sizes.first(), study.step_sizes.last());
@@ -288,7 +293,7 @@ pub(crate) fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
     step_sizes.zip(errors.iter().copied()).collect()
 }
 
-fn picture(problem: &dyn Problem, method: Method, study: &Study) -> Picture {
+fn picture(problem: &dyn Problem, method: MethodName, study: &Study) -> Picture {
     let order = exponent(method);
     let mut panels = Vec::new();
     if study.rows.iter().any(|row| row.crossing.is_some()) {
@@ -331,6 +336,6 @@ fn picture(problem: &dyn Problem, method: Method, study: &Study) -> Picture {
     }
     Picture {
         columns: panels.len().min(3),
-        ..Picture::row(problem.card().title, panels)
+        ..Picture::row(problem.description().title, panels)
     }
 }

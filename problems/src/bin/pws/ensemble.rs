@@ -10,8 +10,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use dmm_problems::method::Method;
-use dmm_problems::problem::{Crew, Problem, Run, Start};
+use dmm_problems::method::MethodName;
+use dmm_problems::problem::{Parallelism, Problem, Run, Start};
 
 use crate::failure::Failure;
 use crate::input;
@@ -62,7 +62,7 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &[])?;
     let problem = &*problem;
     let run = arguments.scheme.applied(problem.default_run())?;
-    let known = Method::OF_ENSEMBLES;
+    let known = MethodName::OF_ENSEMBLES;
     if !known.contains(&run.method) {
         let names: Vec<&str> = known.iter().map(|method| method.name()).collect();
         return Err(Failure::Request(format!(
@@ -87,14 +87,14 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     }
     let default_out = || {
         Path::new("output")
-            .join(problem.card().name)
+            .join(problem.description().name)
             .join("ensemble.csv")
     };
     let out = arguments.out.clone().unwrap_or_else(default_out);
     if let Some(directory) = out.parent() {
         output::directory(directory)?;
     }
-    let crew = Crew {
+    let parallelism = Parallelism {
         threads: arguments
             .threads
             .and_then(|count| usize::try_from(count).ok()),
@@ -102,7 +102,7 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     };
     let mut results = Results::create(problem, out, members.count)?;
     let start = Instant::now();
-    integrate(problem, &run, crew, members, &mut results)?;
+    integrate(problem, &run, parallelism, members, &mut results)?;
     let seconds = start.elapsed().as_secs_f64();
     results.finish(problem, &run, seconds)
 }
@@ -111,7 +111,7 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
 fn integrate(
     problem: &dyn Problem,
     run: &Run,
-    crew: Crew,
+    parallelism: Parallelism,
     members: Members,
     results: &mut Results,
 ) -> Result<(), Failure> {
@@ -122,8 +122,8 @@ fn integrate(
         start
     });
     let mut written = Ok(());
-    problem.integrate_all(run, crew, &mut starts, &mut |fate| {
-        written = results.take(&waiting, Some(fate));
+    problem.integrate_all(run, parallelism, &mut starts, &mut |outcome| {
+        written = results.take(&waiting, Some(outcome));
         match written {
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
@@ -139,19 +139,21 @@ const ROUNDS: usize = 5;
 /// Trajectories per second in lanes and not, on one core and on all.
 fn bench(problem: &dyn Problem, run: &Run, members: Members) -> Result<(), Failure> {
     let starts: Vec<Start> = members.rows.flatten().collect();
-    let crew = |threads, lanes| Crew { threads, lanes };
+    let parallelism = |threads, lanes| Parallelism { threads, lanes };
     let kinds = [
-        ("one core, one at a time", crew(Some(1), false)),
-        ("one core, in lanes", crew(Some(1), true)),
-        ("all cores, in lanes", crew(None, true)),
+        ("one core, one at a time", parallelism(Some(1), false)),
+        ("one core, in lanes", parallelism(Some(1), true)),
+        ("all cores, in lanes", parallelism(None, true)),
     ];
     // interleaved, so that a slow moment is everybody's
     let mut fastest = [f64::INFINITY; 3];
     for _ in 0..ROUNDS {
-        for ((_, crew), fastest) in kinds.iter().zip(&mut fastest) {
+        for ((_, parallelism), fastest) in kinds.iter().zip(&mut fastest) {
             let start = Instant::now();
             let mut members = starts.iter().cloned();
-            problem.integrate_all(run, *crew, &mut members, &mut |_| ControlFlow::Continue(()));
+            problem.integrate_all(run, *parallelism, &mut members, &mut |_| {
+                ControlFlow::Continue(())
+            });
             *fastest = fastest.min(start.elapsed().as_secs_f64());
         }
     }

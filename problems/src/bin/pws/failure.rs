@@ -36,7 +36,7 @@ pub(crate) enum Failure {
     /// The integration stopped before its end.
     #[error("{0}")]
     Stopped(String),
-    /// Nobody reads standard output any more.
+    /// NoSink reads standard output any more.
     #[error("standard output is closed")]
     ReaderGone,
 }
@@ -72,8 +72,8 @@ impl Failure {
 
 impl From<dmm_runtime::Error> for Failure {
     fn from(error: dmm_runtime::Error) -> Self {
-        match error {
-            dmm_runtime::Error::InvalidInput { .. } | dmm_runtime::Error::NoRegion { .. } => {
+        match error.kind {
+            dmm_runtime::ErrorKind::InvalidInput { .. } | dmm_runtime::ErrorKind::NoRegion => {
                 Self::Request(error.to_string())
             }
             _ => Self::Stopped(error.to_string()),

@@ -47,9 +47,9 @@ pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Box<dyn Probl
     Ok(problem)
 }
 
-/// The initial state: that of the problem's card with `x=1,q[0]=2` set.
+/// The initial state: that of the problem's description with `x=1,q[0]=2` set.
 pub(crate) fn initial(problem: &dyn Problem, given: Option<&str>) -> Result<Vec<f64>, Failure> {
-    let mut initial = problem.card().initial.to_vec();
+    let mut initial = problem.description().initial.to_vec();
     let assignments = given.into_iter().flat_map(|text| text.split(','));
     let mut given = Vec::new();
     for assignment in assignments {

@@ -17,11 +17,11 @@ pub(crate) fn list() -> Result<(), Failure> {
             names => names.join(", "),
         };
         table.row([
-            problem.card().name.to_owned(),
+            problem.description().name.to_owned(),
             grouped(problem.states()).join(", "),
             interfaces,
             problem.conserved_names(0).join(", "),
-            problem.card().title.to_owned(),
+            problem.description().title.to_owned(),
         ]);
     }
     Ok(table.print()?)

@@ -84,9 +84,12 @@ pub(crate) fn announce(paths: &[PathBuf]) -> io::Result<()> {
 /// Names in their order, the elements of a group as one: `q[3], p` of `q[0], q[1], q[2], p`.
 pub(crate) fn grouped(names: &[&str]) -> Vec<String> {
     let groups = groups(names);
-    let name = |(name, states): (&str, Range<usize>)| match names[states.start].contains('[') {
-        true => format!("{name}[{}]", states.len()),
-        false => name.to_owned(),
+    let name = |(name, states): (&str, Range<usize>)| {
+        if names[states.start].contains('[') {
+            format!("{name}[{}]", states.len())
+        } else {
+            name.to_owned()
+        }
     };
     groups.into_iter().map(name).collect()
 }
@@ -107,9 +110,10 @@ pub(crate) fn groups<'a>(names: &[&'a str]) -> Vec<(&'a str, Range<usize>)> {
 
 /// A number as people write it: small and large ones with an exponent.
 pub(crate) fn number(value: f64) -> String {
-    match value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
-        true => format!("{value:e}"),
-        false => value.to_string(),
+    if value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
+        format!("{value:e}")
+    } else {
+        value.to_string()
     }
 }
 
@@ -154,9 +158,10 @@ impl Table {
                 if column > 0 {
                     line.push_str("  ");
                 }
-                match column < self.left {
-                    true => line.extend([cell.as_str(), &padding]),
-                    false => line.extend([padding.as_str(), cell]),
+                if column < self.left {
+                    line.extend([cell.as_str(), &padding]);
+                } else {
+                    line.extend([padding.as_str(), cell]);
                 }
             }
             writeln!(out, "{}", line.trim_end())?;

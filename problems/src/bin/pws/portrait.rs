@@ -155,9 +155,10 @@ pub(crate) fn errors(series: &[(String, Vec<(f64, f64)>)], what: &str, title: &s
         0.0
     };
     let unit = 10f64.powf(exponent);
-    let label = match exponent == 0.0 {
-        true => what.to_owned(),
-        false => format!("{what} (×10{})", superscript(exponent as i64)),
+    let label = if exponent == 0.0 {
+        what.to_owned()
+    } else {
+        format!("{what} (×10{})", superscript(exponent as i64))
     };
     let mut panel = Panel::new(
         title,

@@ -6,9 +6,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 /// Says what is being done, on a terminal.
 pub(crate) fn spinner() -> ProgressBar {
-    match std::io::stderr().is_terminal() {
-        true => ProgressBar::new_spinner(),
-        false => ProgressBar::hidden(),
+    if std::io::stderr().is_terminal() {
+        ProgressBar::new_spinner()
+    } else {
+        ProgressBar::hidden()
     }
 }
 

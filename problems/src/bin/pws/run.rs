@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plane = plane(problem, arguments.plane.as_deref())?;
     check(problem, &run)?;
     let run = scheme::with_even_output(run)?;
-    let default_out = || Path::new("output").join(problem.card().name);
+    let default_out = || Path::new("output").join(problem.description().name);
     let out = arguments.out.clone().unwrap_or_else(default_out);
     output::directory(&out)?;
     let mut recorder = Recorder::create(problem, &run, arguments.every, &out)?;
@@ -121,7 +121,7 @@ fn pictures(
         Some(last) if last.t < finished.t * 0.99 => format!(" (until t = {:.3})", last.t),
         _ => String::new(),
     };
-    let title = problem.card().title;
+    let title = problem.description().title;
     let mut phase = portrait::phase(problem, kept, plane, &format!("phase portrait{shown}"));
     phase.equal_aspect = true;
     let series = portrait::time_series(problem, kept, &format!("time series{shown}"));
@@ -153,7 +153,12 @@ fn summarise(
     statistics: Option<&Statistics>,
 ) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    writeln!(out, "{}: {}", problem.card().name, problem.card().title)?;
+    writeln!(
+        out,
+        "{}: {}",
+        problem.description().name,
+        problem.description().title
+    )?;
     writeln!(
         out,
         "reached t = {} by {}",

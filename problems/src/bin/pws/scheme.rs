@@ -1,7 +1,7 @@
 //! The options that choose a scheme and what decides its steps.
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use dmm_problems::method::{Control, Method};
+use dmm_problems::method::{Control, MethodName};
 use dmm_problems::problem::{DEFAULT_TOLERANCE, OutputTimes, Run};
 
 use crate::failure::Failure;
@@ -24,15 +24,15 @@ pub(crate) struct SchemeOptions {
 
 /// The names of the schemes, with what they are.
 fn names() -> PossibleValuesParser {
-    parser(Method::all())
+    parser(MethodName::all())
 }
 
 /// The names of the schemes with uniform steps.
 pub(crate) fn uniform_names() -> PossibleValuesParser {
-    parser(Method::all().filter(|method| method.control() != Control::Tolerance))
+    parser(MethodName::all().filter(|method| method.control() != Control::Tolerance))
 }
 
-fn parser(methods: impl Iterator<Item = Method>) -> PossibleValuesParser {
+fn parser(methods: impl Iterator<Item = MethodName>) -> PossibleValuesParser {
     let mut values: Vec<PossibleValue> = Vec::new();
     for method in methods {
         // the form with steps by a tolerance has the same name
@@ -45,7 +45,7 @@ fn parser(methods: impl Iterator<Item = Method>) -> PossibleValuesParser {
 
 impl SchemeOptions {
     /// The scheme.
-    fn method(&self) -> Result<Method, Failure> {
+    fn method(&self) -> Result<MethodName, Failure> {
         let method = named(&self.scheme, self.tolerance.is_some())?;
         match (method.control(), self.tolerance) {
             (Control::StepSize { .. }, Some(_)) => Err(Failure::Request(format!(
@@ -70,8 +70,9 @@ impl SchemeOptions {
 }
 
 /// The scheme of that name.
-pub(crate) fn named(name: &str, adaptive: bool) -> Result<Method, Failure> {
-    Method::find(name, adaptive).ok_or_else(|| Failure::Request(format!("unknown scheme `{name}`")))
+pub(crate) fn named(name: &str, adaptive: bool) -> Result<MethodName, Failure> {
+    MethodName::find(name, adaptive)
+        .ok_or_else(|| Failure::Request(format!("unknown scheme `{name}`")))
 }
 
 /// The run with output at the multiples of its step size, if the scheme chooses its steps.

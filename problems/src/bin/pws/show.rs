@@ -89,9 +89,10 @@ fn show_file(path: &Path, arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn listing(scheme: &Scheme, arguments: &Arguments) -> String {
-    match arguments.latex {
-        true => emit::latex(scheme),
-        false => emit::listing(scheme),
+    if arguments.latex {
+        emit::latex(scheme)
+    } else {
+        emit::listing(scheme)
     }
 }
 
@@ -99,14 +100,14 @@ fn show_problem(problem: &dyn Problem, arguments: &Arguments) -> Result<(), Fail
     if arguments.latex {
         return print(&listing(&scheme(problem)?, arguments));
     }
-    let card = problem.card();
+    let description = problem.description();
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
         "{}: {}\nsource: {}",
-        card.name, card.title, card.source
+        description.name, description.title, description.source
     )?;
-    let start = assignments(problem.states(), card.initial);
+    let start = assignments(problem.states(), description.initial);
     writeln!(out, "start at t = 0: {start}")?;
     let (names, values): (Vec<&str>, Vec<f64>) = problem.parameters().into_iter().unzip();
     if !names.is_empty() {
@@ -115,7 +116,7 @@ fn show_problem(problem: &dyn Problem, arguments: &Arguments) -> Result<(), Fail
     writeln!(
         out,
         "reference solution: {}",
-        match card.reference {
+        match description.reference {
             Some(_) => "32 digits",
             None => "computed when needed",
         }
@@ -130,9 +131,10 @@ fn assignments(names: &[&str], values: &[f64]) -> String {
     let groups = output::groups(names).into_iter().map(|(group, places)| {
         let is_group = names[places.start].contains('[');
         let values: Vec<String> = values[places].iter().map(f64::to_string).collect();
-        match is_group {
-            true => format!("{group} = [{}]", values.join(", ")),
-            false => format!("{group} = {}", values.concat()),
+        if is_group {
+            format!("{group} = [{}]", values.join(", "))
+        } else {
+            format!("{group} = {}", values.concat())
         }
     });
     groups.collect::<Vec<String>>().join(", ")
@@ -151,7 +153,7 @@ fn tokens(problem: &dyn Problem) -> Result<TokenStream, Failure> {
 }
 
 fn unreadable(problem: &dyn Problem, messages: &str) -> Failure {
-    let name = problem.card().name;
+    let name = problem.description().name;
     Failure::Stopped(format!("{name} does not compile: {messages}"))
 }
 

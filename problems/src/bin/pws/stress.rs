@@ -19,9 +19,6 @@ use crate::progress;
 pub(crate) struct Arguments {
     /// Names of the studies [default: all].
     studies: Vec<String>,
-    /// The study `crossings`, as an option.
-    #[arg(long, hide = true)]
-    crossings: bool,
     /// The same in a few seconds.
     #[arg(long)]
     brief: bool,
@@ -35,10 +32,7 @@ pub(crate) struct Arguments {
 
 /// Makes the studies, prints a table of each and says what was wrong.
 pub(crate) fn stress(arguments: &Arguments) -> Result<(), Failure> {
-    let names = arguments.studies.iter().map(String::as_str);
-    let names: Vec<&str> = names
-        .chain(arguments.crossings.then_some("crossings"))
-        .collect();
+    let names: Vec<&str> = arguments.studies.iter().map(String::as_str).collect();
     let studies: Vec<Study> = match names.as_slice() {
         [] => STUDIES.to_vec(),
         names => names

@@ -4,14 +4,13 @@
 mod constructors;
 mod traversal;
 
-use std::collections::HashMap;
 use std::ops::Index;
 
 use egg::Id;
 use num_bigint::BigInt;
 use num_traits::{One, ToPrimitive, Zero};
+use rustc_hash::FxHashMap;
 
-use super::hasher::BuildQuick;
 use super::language::{Math, Name, Rational};
 use super::work::Work;
 
@@ -19,7 +18,7 @@ use super::work::Work;
 #[derive(Clone, Debug, Default)]
 pub struct Dag {
     nodes: Vec<Math>,
-    memo: HashMap<Math, Id, BuildQuick>,
+    memo: FxHashMap<Math, Id>,
     /// What normal forms over this DAG may still take.
     pub(super) work: Work,
 }

@@ -93,9 +93,10 @@ pub fn symbol(symbol: &Symbol, style: &Style) -> String {
     });
     let scripted = |base: String, scripts: [Option<String>; 2]| {
         let scripts: Vec<String> = scripts.into_iter().flatten().collect();
-        match scripts.is_empty() {
-            true => base,
-            false => format!("{base}_{{{}}}", scripts.join(",")),
+        if scripts.is_empty() {
+            base
+        } else {
+            format!("{base}_{{{}}}", scripts.join(","))
         }
     };
     match &symbol.component {
@@ -110,9 +111,10 @@ pub fn symbol(symbol: &Symbol, style: &Style) -> String {
 /// The name of a shared formula.
 pub fn shared(number: usize, in_row: bool, style: &Style) -> String {
     let letter = unicode::mathematics(&style.letters.shared);
-    match in_row {
-        true => format!("{letter}_{{{number},[{}]}}", style.letters.row),
-        false => format!("{letter}_{{{number}}}"),
+    if in_row {
+        format!("{letter}_{{{number},[{}]}}", style.letters.row)
+    } else {
+        format!("{letter}_{{{number}}}")
     }
 }
 
@@ -126,9 +128,10 @@ impl Notation for &Style {
         let sign = if value.is_negative() { "-" } else { "" };
         let size = value.abs();
         if size.is_integer() {
-            let precedence = match value.is_negative() {
-                true => Precedence::Product,
-                false => Precedence::Atom,
+            let precedence = if value.is_negative() {
+                Precedence::Product
+            } else {
+                Precedence::Atom
             };
             return (format!("{sign}{size}"), precedence);
         }
@@ -196,18 +199,20 @@ impl Notation for &Style {
         let (numerator, denominator) = (product.constant.numer(), product.constant.denom());
         let is_fraction = !product.below.is_empty() || !denominator.is_one();
         // the bar of a fraction brackets
-        let least = match is_fraction {
-            true => Precedence::Sum,
-            false => Precedence::Product,
+        let least = if is_fraction {
+            Precedence::Sum
+        } else {
+            Precedence::Product
         };
         let above = side(writer, numerator.to_string(), &product.above, least);
         if !is_fraction {
             return (format!("{sign}{above}"), Precedence::Product);
         }
         let below = side(writer, denominator.to_string(), &product.below, least);
-        let precedence = match product.negative {
-            true => Precedence::Product,
-            false => Precedence::Factor,
+        let precedence = if product.negative {
+            Precedence::Product
+        } else {
+            Precedence::Factor
         };
         (format!(r"{sign}\frac{{{above}}}{{{below}}}"), precedence)
     }
@@ -236,10 +241,12 @@ fn side(
         let written = writer.operand(factor, Precedence::Factor);
         // 2 3 would be read as 23
         let digit = written.starts_with(|letter: char| letter.is_ascii_digit());
-        let _ = match (text.is_empty(), digit) {
-            (true, _) => write!(text, "{written}"),
-            (false, true) => write!(text, r" \cdot {written}"),
-            (false, false) => write!(text, r" \, {written}"),
+        let _ = if text.is_empty() {
+            write!(text, "{written}")
+        } else if digit {
+            write!(text, r" \cdot {written}")
+        } else {
+            write!(text, r" \, {written}")
         };
     }
     text

@@ -14,12 +14,14 @@ mod build;
 mod collect;
 pub mod formula;
 mod hash;
+#[cfg(feature = "explore")]
 pub mod latex;
 pub mod patterns;
 pub mod shared;
 pub mod size;
 pub mod symbol;
 pub mod text;
+#[cfg(feature = "explore")]
 pub mod unicode;
 mod writer;
 

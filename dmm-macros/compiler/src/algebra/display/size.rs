@@ -55,9 +55,10 @@ impl Widths {
             Formula::Product(product) => {
                 let factors = product.above.iter().chain(&product.below);
                 let brackets: usize = factors.map(|&factor| 1 + bracket(formulas, factor)).sum();
-                let constant = match product.constant.is_one() {
-                    true => 0,
-                    false => product.constant.to_string().len() + 1,
+                let constant = if product.constant.is_one() {
+                    0
+                } else {
+                    product.constant.to_string().len() + 1
                 };
                 let bar = if product.below.is_empty() { 0 } else { 2 };
                 brackets + constant + bar + usize::from(product.negative)

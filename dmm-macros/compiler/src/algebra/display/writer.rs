@@ -125,11 +125,12 @@ impl<'a, N: Notation> Writer<'a, N> {
     fn signed(&mut self, terms: &[Term]) -> Vec<String> {
         let mut written = Vec::with_capacity(terms.len());
         for (place, term) in terms.iter().enumerate() {
-            let sign = match (place == 0, term.negative) {
-                (true, false) => "",
-                (true, true) => "-",
-                (false, false) => " + ",
-                (false, true) => " - ",
+            let sign = if place == 0 {
+                if term.negative { "-" } else { "" }
+            } else if term.negative {
+                " - "
+            } else {
+                " + "
             };
             let term = self.operand(term.formula, Precedence::Product);
             written.push(format!("{sign}{term}"));

@@ -83,9 +83,10 @@ impl Algebra {
     }
 
     pub(super) fn spend(&self, terms: usize) -> Result<(), Obstacle> {
-        match self.budget.spend(terms) {
-            true => Ok(()),
-            false => Err(Obstacle::TooLarge),
+        if self.budget.spend(terms) {
+            Ok(())
+        } else {
+            Err(Obstacle::TooLarge)
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::Obstacle;
 use super::algebra::Algebra;
-use super::factors::{Factors, merge_factors, missing_factors};
+use super::denominator::{Factors, merge_factors, missing_factors};
 use super::fraction::Fraction;
 use super::monomial::{self, Exponent};
 use super::number::{Coefficient, Number};

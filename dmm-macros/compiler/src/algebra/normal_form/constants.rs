@@ -1,16 +1,11 @@
 //! Relations between constants, for the zero test: quotients over roots of rational numbers are
-//! rationalised, nested roots are taken apart where they can be, and a square root is written by
-//! an earlier one where their product is simpler.
+//! rationalised, and a square root is written by an earlier one where their product is simpler.
+//! (Nested roots are in `nested`.)
 //!
 //! | constant | becomes |
 //! |---|---|
 //! | 1/(A + B√c) | (A − B√c)/(A² − B²c) |
-//! | √(A + B√c), A > 0, d = √(A² − B²c) simple | √((A + d)/2) ± √((A − d)/2) |
-//! | ∛(A + B√c) | p + q√c, where its third power is the base |
 //! | √b, where √(ab) is simple | √(ab)·√a/a |
-//!
-//! A root is guessed in floating-point numbers at most, and accepted where its power is the base
-//! exactly and its sign is certain.
 
 use num_integer::Integer;
 
@@ -24,128 +19,10 @@ use crate::algebra::Function;
 
 type Result<T> = std::result::Result<T, Obstacle>;
 
-/// Nested roots are taken apart up to this depth.
-const DEEPEST_ROOT: usize = 4;
-/// Parts of a third root are looked for among the multiples of one over this.
-const DENOMINATOR: f64 = 12.0;
-/// Third roots are looked for among those of multiples up to this one.
-const LARGEST_SCALE: i64 = 7;
 /// Sums of roots of unity are inverted up to this order.
 const LARGEST_ORDER: i64 = 31;
 
-/// A complex number with a bound of the rounding errors of both parts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Approximate {
-    pub(super) re: f64,
-    pub(super) im: f64,
-    error: f64,
-}
-
-impl Approximate {
-    fn new(re: f64, im: f64, inherited: f64) -> Self {
-        let error = inherited + 4.0 * f64::EPSILON * (re.abs() + im.abs());
-        Self { re, im, error }
-    }
-
-    fn real(re: f64) -> Self {
-        Self::new(re, 0.0, 0.0)
-    }
-
-    fn add(self, other: Self) -> Self {
-        Self::new(
-            self.re + other.re,
-            self.im + other.im,
-            self.error + other.error,
-        )
-    }
-
-    fn mul(self, other: Self) -> Self {
-        let size = |one: Self| one.re.abs() + one.im.abs() + one.error;
-        let inherited = size(self) * other.error + size(other) * self.error;
-        Self::new(
-            self.re * other.re - self.im * other.im,
-            self.re * other.im + self.im * other.re,
-            inherited,
-        )
-    }
-
-    /// −1 or 1 if the sign of the real part is beyond doubt.
-    pub(super) fn sign(self) -> Option<i64> {
-        let clear = self.re.is_finite() && self.re.abs() > 1e3 * self.error;
-        clear.then_some(if self.re < 0.0 { -1 } else { 1 })
-    }
-}
-
 impl Algebra {
-    /// The value of a constant.
-    pub(super) fn approximate(&self, constant: &Fraction) -> Option<Approximate> {
-        let mut value = self.approximate_sum(&constant.numerator)?;
-        for &(index, multiplicity) in &constant.denominator {
-            let factor = self.approximate_sum(self.factor(index)?)?;
-            let square = factor.re * factor.re + factor.im * factor.im;
-            let error = factor.error / square;
-            let inverse = Approximate::new(factor.re / square, -factor.im / square, error);
-            for _ in 0..multiplicity {
-                value = value.mul(inverse);
-            }
-        }
-        value.re.is_finite().then_some(value)
-    }
-
-    fn approximate_sum(&self, sum: &Polynomial) -> Option<Approximate> {
-        let mut value = Approximate::new(0.0, 0.0, 0.0);
-        for term in sum.terms() {
-            let Coefficient { re, im } = &term.coefficient;
-            let mut product = Approximate::new(re.to_f64()?, im.to_f64()?, 0.0);
-            for power in &term.monomial {
-                product = product.mul(self.approximate_power(*power)?);
-            }
-            value = value.add(product);
-        }
-        Some(value)
-    }
-
-    fn approximate_power(&self, power: Power) -> Option<Approximate> {
-        let exponent = power.exponent.to_number().to_f64()?;
-        let of = |fraction: &Fraction| {
-            let value = self.approximate(fraction)?;
-            (value.im.abs() <= value.error).then_some(value)
-        };
-        Some(match self.kind(power.atom)? {
-            Kind::Pi => Approximate::real(std::f64::consts::PI.powf(exponent)),
-            Kind::Root(base) => {
-                let base = of(base)?;
-                if base.sign()? < 0 {
-                    return None;
-                }
-                let value = base.re.powf(exponent);
-                Approximate::new(value, 0.0, value * (exponent * base.error / base.re).abs())
-            }
-            Kind::Exp(key) => {
-                let key = of(key)?;
-                let value = (exponent * key.re).exp();
-                Approximate::new(value, 0.0, value * exponent.abs() * key.error)
-            }
-            Kind::Phase(key) => {
-                let key = of(key)?;
-                let angle = exponent * key.re;
-                let error = exponent.abs() * key.error + f64::EPSILON * angle.abs();
-                Approximate::new(angle.cos(), angle.sin(), error)
-            }
-            Kind::Call(function, argument) if exponent == 1.0 => {
-                let u = of(argument)?;
-                let (value, slope) = match function {
-                    Function::Ln => (u.re.ln(), 1.0 / u.re),
-                    Function::Atan => (u.re.atan(), 1.0),
-                    Function::Asin => (u.re.asin(), 1.0 / (1.0 - u.re * u.re).sqrt()),
-                    _ => return None,
-                };
-                Approximate::new(value, 0.0, slope.abs() * u.error)
-            }
-            Kind::Call(..) | Kind::Variable(_) | Kind::Opaque(_) => return None,
-        })
-    }
-
     /// Whether nothing varies in `fraction`; never said where constants are left as they are.
     pub(super) fn is_constant(&self, fraction: &Fraction) -> bool {
         let is_constant = |sum: &Polynomial| {
@@ -231,7 +108,7 @@ impl Algebra {
 
     /// The latest root in a sum, and its parts Aⱼ: the sum is Σ Aⱼ R^(j/d). Only for the degrees
     /// d = 2 and 3.
-    fn by_latest_root(&self, sum: &Polynomial) -> Option<(Atom, Vec<Fraction>)> {
+    pub(super) fn by_latest_root(&self, sum: &Polynomial) -> Option<(Atom, Vec<Fraction>)> {
         let powers = sum.terms().iter().flat_map(|term| &term.monomial);
         let atom = powers.map(|power| power.atom).max()?;
         let exponents = sum
@@ -326,131 +203,6 @@ impl Algebra {
         let inverse = self.inverse(&norm)?;
         let inverse = self.mul(&conjugate, &inverse)?;
         Ok(self.is_algebraic(&inverse).then_some(inverse))
-    }
-
-    /// What `base`^(1/2) or `base`^(1/3) is without nesting, with the degree; `base` is made of
-    /// roots.
-    pub(super) fn simpler_root(
-        &mut self,
-        base: &Fraction,
-        r: Exponent,
-    ) -> Result<Option<(Fraction, i64)>> {
-        if !self.decides || !self.is_algebraic(base) || self.depth > 0 {
-            return Ok(None);
-        }
-        let Number::Small(_, denominator) = r.to_number() else {
-            return Ok(None);
-        };
-        if denominator % 2 == 0
-            && let Some(root) = self.denested(base, 0)?
-        {
-            return Ok(Some((root, 2)));
-        }
-        if denominator % 3 == 0
-            && let Some(root) = self.scaled_third_root(base)?
-        {
-            return Ok(Some((root, 3)));
-        }
-        Ok(None)
-    }
-
-    /// √x of a positive x made of roots, as a sum of roots of rational numbers.
-    fn denested(&mut self, x: &Fraction, depth: usize) -> Result<Option<Fraction>> {
-        let half = Number::Small(1, 2);
-        if self.approximate(x).and_then(Approximate::sign) != Some(1) {
-            return Ok(None);
-        }
-        if x.as_number().is_some() {
-            return self.rational_power(x, &half).map(Some);
-        }
-        if depth > DEEPEST_ROOT {
-            return Ok(None);
-        }
-        let Some((atom, parts)) = self.by_latest_root(&x.numerator) else {
-            return Ok(None);
-        };
-        let ([a, b], Some(Kind::Root(base))) = (parts.as_slice(), self.kind(atom).cloned()) else {
-            return Ok(None);
-        };
-        let square = self.mul(a, a)?;
-        let other = self.mul(b, b)?;
-        let other = self.mul(&other, &base)?;
-        let norm = self.sub(&square, &other)?;
-        if norm.is_zero() || self.approximate(a).and_then(Approximate::sign) != Some(1) {
-            return Ok(None);
-        }
-        let Some(d) = self.denested(&norm, depth + 1)? else {
-            return Ok(None);
-        };
-        let half = Coefficient::real(half);
-        let first = self.add(a, &d)?.scaled(&half);
-        let second = self.sub(a, &d)?.scaled(&half);
-        let Some(first) = self.denested(&first, depth + 1)? else {
-            return Ok(None);
-        };
-        let Some(second) = self.denested(&second, depth + 1)? else {
-            return Ok(None);
-        };
-        for root in [self.add(&first, &second)?, self.sub(&first, &second)?] {
-            if self.is_power(&root, 2, x)? {
-                return Ok(Some(root));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Whether `root` is positive and `root`ⁿ = `power`.
-    fn is_power(&mut self, root: &Fraction, n: i64, power: &Fraction) -> Result<bool> {
-        if self.approximate(root).and_then(Approximate::sign) != Some(1) {
-            return Ok(false);
-        }
-        let own = self.integer_power(root, n)?;
-        Ok(self.sub(&own, power)?.is_zero())
-    }
-
-    /// ∛x by ∛(nx)/∛n for a small integer n.
-    fn scaled_third_root(&mut self, x: &Fraction) -> Result<Option<Fraction>> {
-        for n in 1..=LARGEST_SCALE {
-            let n = Number::integer(n);
-            let scaled = x.scaled(&Coefficient::real(n.clone()));
-            if let Some(root) = self.third_root(&scaled)? {
-                let n = Fraction::number(n);
-                let scale = self.rational_power(&n, &Number::Small(-1, 3))?;
-                return self.mul(&root, &scale).map(Some);
-            }
-        }
-        Ok(None)
-    }
-
-    /// ∛x of x = A + B√c with rational A, B, c, if it is p + q√c.
-    fn third_root(&mut self, x: &Fraction) -> Result<Option<Fraction>> {
-        let Some((atom, parts)) = self.by_latest_root(&x.numerator) else {
-            return Ok(None);
-        };
-        let ([a, b], Some(Kind::Root(base))) = (parts.as_slice(), self.kind(atom).cloned()) else {
-            return Ok(None);
-        };
-        let numbers = [a, b, &base].map(|part| part.as_number().and_then(|value| value.to_f64()));
-        let [Some(a), Some(b), Some(c)] = numbers else {
-            return Ok(None);
-        };
-        let (one, other) = ((a + b * c.sqrt()).cbrt(), (a - b * c.sqrt()).cbrt());
-        let guess = |value: f64| {
-            let scaled = (DENOMINATOR * value).round();
-            (scaled.abs() < 1e12).then(|| Fraction::number(Number::integer(scaled as i64)))
-        };
-        let (Some(p), Some(q)) = (
-            guess((one + other) / 2.0),
-            guess((one - other) / (2.0 * c.sqrt())),
-        ) else {
-            return Ok(None);
-        };
-        let half = Exponent::from_number(&Number::Small(1, 2))?;
-        let rooted = self.mul(&q, &Polynomial::atom(atom, half).into())?;
-        let scale = Coefficient::real(Number::Small(1, DENOMINATOR as i64));
-        let root = self.add(&p, &rooted)?.scaled(&scale);
-        let holds = self.is_power(&root, 3, x)?;
-        Ok(holds.then_some(root))
     }
 
     /// √`base` by the root of an earlier constant, where the product of both is simple.

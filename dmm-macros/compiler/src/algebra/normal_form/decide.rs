@@ -74,9 +74,10 @@ pub fn decide_zero_on(dag: &mut Dag, root: Id, domain: &[Id]) -> Verdict {
         .ok()
         .and_then(|form| Writer::new(dag, &mut algebra).fraction(&form));
     let Some(found) = early.or_else(|| non_zero(dag, &roots, written)) else {
-        return match is_exhausted {
-            true => Verdict::Exhausted,
-            false => Verdict::Undecided,
+        return if is_exhausted {
+            Verdict::Exhausted
+        } else {
+            Verdict::Undecided
         };
     };
     let residual = match written {

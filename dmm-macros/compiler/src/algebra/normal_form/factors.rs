@@ -3,6 +3,7 @@
 
 use super::Obstacle;
 use super::algebra::Algebra;
+use super::denominator::{Factors, merge_factors};
 use super::fraction::Fraction;
 use super::gcd::common_divisor;
 use super::monomial::{self, Exponent, Power};
@@ -11,9 +12,6 @@ use super::polynomial::{Polynomial, Term};
 
 /// A cancellation is tried along the way only up to this number of terms.
 const CANCELLED_TERMS: usize = 64;
-
-/// Π factorᵐ, the factors by their index in the table and rising.
-pub(super) type Factors = Vec<(usize, u32)>;
 
 impl Algebra {
     /// The index of a primitive polynomial, which is added if it is new.
@@ -188,36 +186,4 @@ impl Algebra {
         let unit = Coefficient::ONE.add(&ratio);
         Ok(Some(if unit.is_zero() { Coefficient::I } else { unit }))
     }
-}
-
-/// Both lists of factors in one, equal factors with their multiplicities combined.
-pub(super) fn merge_factors(
-    a: &[(usize, u32)],
-    b: &[(usize, u32)],
-    combine: impl Fn(u32, u32) -> Option<u32>,
-) -> Result<Factors, Obstacle> {
-    let mut merged = a.to_vec();
-    for &(index, multiplicity) in b {
-        match merged.binary_search_by_key(&index, |factor| factor.0) {
-            Ok(position) => {
-                if let Some((_, known)) = merged.get_mut(position) {
-                    *known = combine(*known, multiplicity).ok_or(Obstacle::TooLarge)?;
-                }
-            }
-            Err(position) => merged.insert(position, (index, multiplicity)),
-        }
-    }
-    Ok(merged)
-}
-
-/// What `common` has and `own` has not.
-pub(super) fn missing_factors(common: &[(usize, u32)], own: &[(usize, u32)]) -> Factors {
-    common
-        .iter()
-        .map(|&(index, multiplicity)| {
-            let known = own.iter().find(|factor| factor.0 == index);
-            (index, multiplicity - known.map_or(0, |factor| factor.1))
-        })
-        .filter(|&(_, multiplicity)| multiplicity > 0)
-        .collect()
 }

@@ -1,10 +1,11 @@
 //! Expression → normal form, node by node.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use egg::Language;
+use rustc_hash::FxHashMap;
 
-use super::super::{BuildQuick, Dag, Function, Id, Math};
+use super::super::{Dag, Function, Id, Math};
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
 use super::fraction::Fraction;
@@ -23,7 +24,7 @@ pub(super) fn normal_form(
 pub(super) struct Forms<'a> {
     algebra: &'a mut Algebra,
     dag: &'a Dag,
-    known: HashMap<Id, Fraction, BuildQuick>,
+    known: FxHashMap<Id, Fraction>,
     /// Whether long sums that are multiplied become symbols.
     folds: bool,
 }
@@ -48,7 +49,7 @@ impl<'a> Forms<'a> {
         Self {
             algebra,
             dag,
-            known: HashMap::default(),
+            known: FxHashMap::default(),
             folds: false,
         }
     }
@@ -278,6 +279,6 @@ impl<'a> Forms<'a> {
     }
 }
 
-fn known(forms: &HashMap<Id, Fraction, BuildQuick>, id: Id) -> Result<&Fraction, Obstacle> {
+fn known(forms: &FxHashMap<Id, Fraction>, id: Id) -> Result<&Fraction, Obstacle> {
     forms.get(&id).ok_or(Obstacle::Undefined)
 }

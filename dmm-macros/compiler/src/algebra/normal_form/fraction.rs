@@ -1,7 +1,7 @@
 //! Fractions of Laurent polynomials with factored denominators: the elements of the
 //! [`Algebra`](super::algebra::Algebra), which alone can add and multiply them.
 
-use super::factors::Factors;
+use super::denominator::Factors;
 use super::monomial::{Atom, Exponent};
 use super::number::{Coefficient, Number};
 use super::polynomial::Polynomial;

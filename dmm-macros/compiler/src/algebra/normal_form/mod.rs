@@ -14,10 +14,12 @@
 
 mod algebra;
 mod angles;
+mod approximate;
 mod arithmetic;
 mod common;
 mod constants;
 mod decide;
+mod denominator;
 mod division;
 mod domain;
 mod factors;
@@ -26,6 +28,7 @@ mod fraction;
 mod functions;
 mod gcd;
 mod monomial;
+mod nested;
 mod number;
 mod polynomial;
 mod powers;

@@ -201,9 +201,10 @@ impl Coefficient {
 
     /// What arithmetic with it takes, that of a small real one being 1.
     pub(super) fn work(&self) -> usize {
-        match self.is_real() {
-            true => self.re.work(),
-            false => self.re.work() + self.im.work(),
+        if self.is_real() {
+            self.re.work()
+        } else {
+            self.re.work() + self.im.work()
         }
     }
 
@@ -220,14 +221,17 @@ impl Coefficient {
     }
 
     pub(super) fn mul(&self, other: &Self) -> Self {
-        match (self.is_real(), other.is_real()) {
-            (true, true) => Self::real(self.re.mul(&other.re)),
-            (true, false) => other.scaled(&self.re),
-            (false, true) => self.scaled(&other.re),
-            (false, false) => Self {
+        if self.is_real() && other.is_real() {
+            Self::real(self.re.mul(&other.re))
+        } else if self.is_real() {
+            other.scaled(&self.re)
+        } else if other.is_real() {
+            self.scaled(&other.re)
+        } else {
+            Self {
                 re: self.re.mul(&other.re).add(&self.im.mul(&other.im).neg()),
                 im: self.re.mul(&other.im).add(&self.im.mul(&other.re)),
-            },
+            }
         }
     }
 

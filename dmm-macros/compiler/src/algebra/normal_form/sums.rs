@@ -13,7 +13,7 @@ use egg::Language;
 use super::super::{Dag, Function, Id, Math};
 use super::Obstacle;
 use super::algebra::Algebra;
-use super::factors::Factors;
+use super::denominator::Factors;
 use super::form::Forms;
 use super::fraction::Fraction;
 

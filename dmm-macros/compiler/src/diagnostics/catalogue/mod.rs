@@ -7,10 +7,11 @@
 //! | 300–399 | [`proofs`] | what a declaration claims |
 //! | 400–499 | [`scheme`] | what is derived from it |
 //!
-//! [`markdown`] is the catalogue as a document, which `DIAGNOSTICS.md` beside this package is a
+//! `markdown` is the catalogue as a document, which `DIAGNOSTICS.md` beside this package is a
 //! copy of.
 
 pub mod check;
+#[cfg(feature = "explore")]
 mod document;
 pub mod proofs;
 pub mod scheme;
@@ -23,6 +24,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 use super::Extent;
+#[cfg(feature = "explore")]
 pub use document::markdown;
 
 /// An entry of the catalogue. Every error carries one; its number stands at the end of the

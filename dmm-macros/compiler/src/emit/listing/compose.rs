@@ -4,13 +4,13 @@ use std::collections::{BTreeSet, HashMap};
 
 use super::document::{Document, Part, Phrase, Piece, Row, Section};
 use super::text;
-use crate::algebra::display::latex::Style;
 use crate::algebra::display::patterns::{Patterns, runs};
 use crate::algebra::display::shared::Shared;
 use crate::algebra::display::size::Widths;
 use crate::algebra::display::text::Letters;
 use crate::algebra::display::{FormulaId, Formulas, Position, Symbol};
 use crate::algebra::{Dag, Id, Name};
+use crate::model::Model;
 use crate::scheme::Scheme;
 
 /// A section has no more rows than this.
@@ -30,18 +30,11 @@ pub(super) type Entry = (Vec<Part>, FormulaId);
 
 impl Composer {
     pub(super) fn new(scheme: &Scheme, source: &str, width: usize) -> Self {
-        let model = &scheme.model;
-        let states = model.states.iter().map(|one| &one.name);
-        let parameters = model.parameters.iter().map(|one| &one.name);
-        let names: Vec<Symbol> = states.chain(parameters).map(Symbol::from).collect();
-        let names: Vec<&str> = names.iter().map(|symbol| &*symbol.base).collect();
-        let style = Style::new(letters(&names), names.iter().copied().chain(["t"]));
         Self {
             document: Document {
-                name: model.name.to_string(),
                 source: source.into(),
                 formulas: Formulas::collected(HashMap::new()),
-                style,
+                letters: letters(&scheme.model),
                 sections: Vec::new(),
             },
             patterns: Patterns::default(),
@@ -62,7 +55,7 @@ impl Composer {
 
     /// The step size.
     pub(super) fn step_size(&mut self) -> FormulaId {
-        let step = Symbol::plain(&self.document.style.letters.step);
+        let step = Symbol::plain(&self.document.letters.step);
         self.formulas().symbol(step)
     }
 
@@ -86,7 +79,7 @@ impl Composer {
         if more > 1 {
             rows.truncate(MOST_ROWS);
         }
-        let letters = &self.document.style.letters;
+        let letters = &self.document.letters;
         let left = rows.iter().map(|row| text::width_of_left(row, letters));
         let width = self.width.saturating_sub(left.max().unwrap_or(0) + 7);
         let mut roots: Vec<FormulaId> = rows.iter().map(|row| row.right).collect();
@@ -195,8 +188,11 @@ fn first_index(left: &[Part]) -> Option<usize> {
 }
 
 /// Letters that the declaration has no other use for.
-fn letters(names: &[&str]) -> Letters {
-    let mut taken: BTreeSet<String> = names.iter().map(|&name| name.to_owned()).collect();
+fn letters(model: &Model) -> Letters {
+    let mut taken: BTreeSet<String> = model
+        .variables()
+        .map(|name| Symbol::from(name).base.to_string())
+        .collect();
     taken.insert("t".into());
     let mut free = |candidates: &[&str]| {
         let found = candidates.iter().map(|&letter| letter.to_owned());

@@ -1,20 +1,18 @@
 //! A listing: sections of equations, before it is written in one notation or another.
 
-use crate::algebra::display::latex::Style;
+use crate::algebra::display::text::Letters;
 use crate::algebra::display::{FormulaId, Formulas, Symbol};
 use crate::scheme::Finding;
 
 /// The listing of a system.
 #[derive(Debug)]
 pub(super) struct Document {
-    /// The system's name.
-    pub(super) name: String,
     /// The declaration; empty in a part of a listing.
     pub(super) source: String,
     /// Where the formulas of the sections live.
     pub(super) formulas: Formulas,
-    /// The letters and names that they are written with.
-    pub(super) style: Style,
+    /// The letters that they are written with.
+    pub(super) letters: Letters,
     /// What was derived, in order.
     pub(super) sections: Vec<Section>,
 }

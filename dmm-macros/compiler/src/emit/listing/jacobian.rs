@@ -3,10 +3,10 @@
 //! For f^τ = f̄ − Λ^τᵀ λ the derivative is that of [`minimal_norm`](crate::scheme::Strategy),
 //! P (∂f̄/∂x₁ − B) − Λ⁺ C, of which the entries of ∂f̄/∂x₁, B and C are listed.
 
-use super::super::system::plain_text;
+use super::super::plain_text;
 use super::compose::{Entry, words};
 use super::document::{Part, Piece, Section};
-use super::region::{Lister, symbol, titled};
+use super::lister::{Lister, symbol, titled};
 use crate::algebra::{Id, Name};
 use crate::scheme::Strategy;
 

@@ -3,7 +3,10 @@
 use std::fmt::Write;
 
 use super::document::{Document, Level, Part, Phrase, Piece, Row, Section};
-use crate::algebra::display::{latex, text, unicode};
+use crate::algebra::display::latex::{self, Style};
+use crate::algebra::display::text::{self, Letters};
+use crate::algebra::display::{Symbol, unicode};
+use crate::model::Model;
 
 const HEAD: &str = r"% A fragment: \input it in a document that loads amsmath.
 %
@@ -19,17 +22,25 @@ group: $q_{[2],1}$ is the element $2$ of $q$ at the later end. A component is in
 its vector or matrix. Names are printed as they were declared.\par
 ";
 
-/// The listing, with equations of at most about `width` characters a line.
-pub(super) fn write(document: &Document, width: usize) -> String {
+/// The style for the names of a declaration.
+pub(super) fn style(model: &Model, letters: &Letters) -> Style {
+    let names: Vec<Symbol> = model.variables().map(Symbol::from).collect();
+    let names = names.iter().map(|symbol| &*symbol.base);
+    Style::new(letters.clone(), names.chain(["t"]))
+}
+
+/// The listing of the system `name`, with equations of at most about `width` characters a line.
+pub(super) fn write(name: &str, document: &Document, style: &Style, width: usize) -> String {
     let mut writer = Writer {
         document,
+        style,
         width,
         text: String::from(HEAD),
     };
     let _ = writeln!(
         writer.text,
         "\\begingroup\\allowdisplaybreaks\\sloppy\n\\subsection*{{System {}}}",
-        unicode::sentence(&document.name)
+        unicode::sentence(name)
     );
     writer.text.push_str(NOTATION);
     writer.declaration();
@@ -42,6 +53,7 @@ pub(super) fn write(document: &Document, width: usize) -> String {
 
 struct Writer<'a> {
     document: &'a Document,
+    style: &'a Style,
     width: usize,
     text: String,
 }
@@ -117,7 +129,7 @@ impl Writer<'_> {
                     let document = self.document;
                     format!(
                         "${}$",
-                        latex::write(&document.formulas, *formula, &document.style)
+                        latex::write(&document.formulas, *formula, self.style)
                     )
                 }
             })
@@ -125,16 +137,17 @@ impl Writer<'_> {
     }
 
     fn left(&self, row: &Row) -> String {
-        let style = &self.document.style;
+        let style = self.style;
         row.left
             .iter()
             .map(|part| match part {
                 Part::Sign(sign) => {
                     let latex = unicode::mathematics(sign);
                     // a command must not run into a name
-                    match latex.ends_with(|letter: char| letter.is_ascii_alphabetic()) {
-                        true => format!("{latex} "),
-                        false => latex,
+                    if latex.ends_with(|letter: char| letter.is_ascii_alphabetic()) {
+                        format!("{latex} ")
+                    } else {
+                        latex
                     }
                 }
                 Part::Name(name) => style.name(name),
@@ -158,10 +171,10 @@ impl Writer<'_> {
     }
 
     fn row(&self, row: &Row) -> String {
+        let style = self.style;
         let Document {
-            formulas, style, ..
+            formulas, letters, ..
         } = self.document;
-        let letters = &style.letters;
         let room = self
             .width
             .saturating_sub(super::text::width_of_left(row, letters));

@@ -2,7 +2,7 @@
 //! and what was proved of it.
 //!
 //! A [`Document`](document::Document) holds the listing as sections of equations, and is
-//! written as aligned text or as LaTeX:
+//! written as aligned text, or with the feature `explore` as LaTeX:
 //!
 //! ```text
 //! Scheme ──region, interface──▶ Document ──text / latex──▶ String
@@ -15,7 +15,9 @@
 mod compose;
 mod document;
 mod jacobian;
+#[cfg(feature = "explore")]
 mod latex;
+mod lister;
 mod region;
 mod strategy;
 mod text;
@@ -25,6 +27,7 @@ use crate::scheme::Scheme;
 /// Columns of a line of text.
 const TEXT_WIDTH: usize = 96;
 /// Characters, as text, of a line in LaTeX.
+#[cfg(feature = "explore")]
 const LATEX_WIDTH: usize = 66;
 /// Lines of a documentation comment.
 const LONGEST_DOCUMENTATION: usize = 400;
@@ -35,8 +38,12 @@ pub(super) fn listing(scheme: &Scheme) -> String {
 }
 
 /// The listing of a whole system as a fragment of a LaTeX document.
+#[cfg(feature = "explore")]
 pub(super) fn latex(scheme: &Scheme) -> String {
-    latex::write(&region::document(scheme, LATEX_WIDTH), LATEX_WIDTH)
+    let model = &scheme.model;
+    let document = region::document(scheme, LATEX_WIDTH);
+    let style = latex::style(model, &document.letters);
+    latex::write(&model.name.to_string(), &document, &style, LATEX_WIDTH)
 }
 
 /// f^τ of a region as text: what the documentation of its variant shows.

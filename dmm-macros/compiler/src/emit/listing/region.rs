@@ -1,16 +1,15 @@
 //! The sections of interfaces and regions: f and ψ, Λ and Λ^τ, f^τ, the residual, the proofs.
 
-use std::collections::HashMap;
-
-use super::super::system::plain_text;
-use super::compose::{Composer, Entry, words, words_and_signs};
+use super::super::plain_text;
+use super::compose::{Composer, Entry, words};
 use super::document::{Document, Level, Part, Section};
 use super::jacobian;
+use super::lister::{Lister, symbol, titled};
 use super::strategy;
 use crate::algebra::display::Symbol;
-use crate::algebra::{Dag, Id, Name};
-use crate::model::{Region, Sign};
-use crate::scheme::{RegionScheme, Scheme, Solvability, Strategy, findings};
+use crate::algebra::{Id, Name};
+use crate::model::Sign;
+use crate::scheme::{Scheme, Solvability, Strategy, findings};
 
 /// The listing of a system for lines of `width` characters.
 pub(super) fn document(scheme: &Scheme, width: usize) -> Document {
@@ -56,49 +55,7 @@ fn interfaces(composer: &mut Composer, scheme: &Scheme) {
     }
 }
 
-/// A state on the left-hand side.
-pub(super) fn symbol(name: &Name) -> Part {
-    Part::Symbol(Symbol::from(name))
-}
-
-/// Lists one region.
-pub(super) struct Lister<'a> {
-    pub(super) composer: &'a mut Composer,
-    pub(super) scheme: &'a Scheme,
-    pub(super) region: &'a Region,
-    pub(super) derived: &'a RegionScheme,
-}
-
-impl<'a> Lister<'a> {
-    fn start(composer: &'a mut Composer, scheme: &'a Scheme, region: usize) -> Self {
-        let (declared, derived) = (&scheme.model.regions[region], &scheme.regions[region]);
-        let mut written_as = HashMap::new();
-        if let Strategy::MinimalNorm { lambda, field, .. } = &derived.strategy {
-            for (name, conserved) in lambda.iter().zip(&declared.conserved) {
-                let of = Name::new(&plain_text(&conserved.ident));
-                written_as.insert(name.clone(), Symbol::component("λ", &of));
-            }
-            for (name, state) in field.iter().zip(&scheme.model.states) {
-                written_as.insert(name.clone(), Symbol::component("f^τ", &state.name));
-            }
-        }
-        composer.start_part(written_as);
-        Self {
-            composer,
-            scheme,
-            region: declared,
-            derived,
-        }
-    }
-
-    pub(super) fn dag(&self) -> &'a Dag {
-        self.scheme.dag()
-    }
-
-    pub(super) fn states(&self) -> impl Iterator<Item = &'a Name> + use<'a> {
-        self.scheme.model.states.iter().map(|state| &state.name)
-    }
-
+impl Lister<'_> {
     fn list(&mut self, region: usize) {
         self.heading();
         self.declared();
@@ -138,17 +95,6 @@ impl<'a> Lister<'a> {
             ..Section::default()
         };
         self.composer.add(section, Vec::new());
-    }
-
-    /// A column with an entry a state.
-    pub(super) fn column(&mut self, sign: &'static str, entries: &[Id]) -> Vec<Entry> {
-        self.states()
-            .zip(entries)
-            .map(|(state, &entry)| {
-                let left = vec![Part::Sign(sign), symbol(state), Part::Sign("]")];
-                (left, self.composer.formula(self.scheme.dag(), entry))
-            })
-            .collect()
     }
 
     /// f and ψ.
@@ -265,9 +211,10 @@ impl<'a> Lister<'a> {
                 Some(field) => self.composer.formula(self.scheme.dag(), field),
                 None => self.named_field(state),
             };
-            let field = match self.composer.is_short(field) {
-                true => field,
-                false => self.named_field(state),
+            let field = if self.composer.is_short(field) {
+                field
+            } else {
+                self.named_field(state)
             };
             let step = self.composer.step_size();
             let formulas = self.composer.formulas();
@@ -289,11 +236,3 @@ impl<'a> Lister<'a> {
 
 /// A system of more states shows only those entries of a multiplier that are not zero.
 const FEW_STATES: usize = 8;
-
-/// A section with a heading of words and signs.
-pub(super) fn titled(heading: &str, signs: &'static str) -> Section {
-    Section {
-        heading: words_and_signs(heading, signs),
-        ..Section::default()
-    }
-}

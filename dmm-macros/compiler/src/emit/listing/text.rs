@@ -47,7 +47,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     fn letters(&self) -> &Letters {
-        &self.document.style.letters
+        &self.document.letters
     }
 
     fn section(&mut self, section: &Section) {

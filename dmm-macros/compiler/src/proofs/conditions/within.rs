@@ -205,10 +205,12 @@ fn half_line(dag: &mut Dag, id: Id, name: &Name) -> Option<(bool, f64)> {
     let rises = slope.is_positive();
     let bound = zero.to_f64().filter(|bound| bound.is_finite())?;
     let is_exact = zero.is_integer() && bound.abs() < 9e15;
-    let outwards = match (is_exact, rises) {
-        (true, _) => bound,
-        (false, true) => bound.next_down(),
-        (false, false) => bound.next_up(),
+    let outwards = if is_exact {
+        bound
+    } else if rises {
+        bound.next_down()
+    } else {
+        bound.next_up()
     };
     Some((rises, outwards))
 }

@@ -47,7 +47,7 @@ fn default_start(problem: &dyn Problem) -> Start {
     let parameters = problem.parameters();
     Start {
         parameters: parameters.iter().map(|(_, value)| *value).collect(),
-        initial: problem.card().initial.to_vec(),
+        initial: problem.description().initial.to_vec(),
     }
 }
 

@@ -59,9 +59,10 @@ impl Parquet {
             column.push(cell);
         }
         self.rows += 1;
-        match self.rows < GROUP {
-            true => Ok(()),
-            false => self.write(),
+        if self.rows < GROUP {
+            Ok(())
+        } else {
+            self.write()
         }
     }
 

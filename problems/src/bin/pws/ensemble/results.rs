@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use std::io::Write;
 use std::path::PathBuf;
 
-use dmm_problems::problem::{Arrival, Fate, Problem, Run, Start};
+use dmm_problems::problem::{Arrival, MemberOutcome, Problem, Run, Start};
 use indicatif::ProgressBar;
 
 use super::members::Row;
@@ -61,14 +61,14 @@ impl Results {
         })
     }
 
-    /// Writes the next member with its fate and the bad rows before it; without a fate those that
+    /// Writes the next member with its outcome and the bad rows before it; without a outcome those that
     /// are left.
     pub(crate) fn take(
         &mut self,
         waiting: &Waiting,
-        mut fate: Option<Fate>,
+        mut outcome: Option<MemberOutcome>,
     ) -> Result<(), Failure> {
-        let ends_with_member = fate.is_some();
+        let ends_with_member = outcome.is_some();
         loop {
             // the members are not borrowed while the row is written
             let next = waiting.borrow_mut().pop_front();
@@ -76,8 +76,8 @@ impl Results {
             match row {
                 Err(failure) => self.write(None, None, Some(failure))?,
                 Ok(start) => {
-                    let (arrival, error) = match fate.take() {
-                        Some(fate) => (fate.arrival, fate.error),
+                    let (arrival, error) = match outcome.take() {
+                        Some(outcome) => (outcome.arrival, outcome.error),
                         None => (None, None),
                     };
                     let failure = error.map(|error| error.to_string());
@@ -136,7 +136,12 @@ impl Results {
         self.bar.finish_and_clear();
         let path = self.table.finish()?;
         let mut out = std::io::stdout().lock();
-        writeln!(out, "{}: {}", problem.card().name, problem.card().title)?;
+        writeln!(
+            out,
+            "{}: {}",
+            problem.description().name,
+            problem.description().title
+        )?;
         let members = self.members;
         writeln!(
             out,

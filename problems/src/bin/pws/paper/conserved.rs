@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dmm_problems::method::Method;
+use dmm_problems::method::MethodName;
 use dmm_problems::picture::Picture;
 use dmm_problems::problem::{Problem, Record, Run, Sink};
 use dmm_problems::reference::Reference;
@@ -34,8 +34,12 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
     )?;
     let mut panels = Vec::new();
     let schemes = [
-        ("DMM", "discrete multiplier method", Method::Symmetric),
-        ("RK2", "explicit midpoint method", Method::ExplicitMidpoint),
+        ("DMM", "discrete multiplier method", MethodName::Symmetric),
+        (
+            "RK2",
+            "explicit midpoint method",
+            MethodName::ExplicitMidpoint,
+        ),
     ];
     for (short, long, method) in schemes {
         let run = Run {
@@ -92,7 +96,12 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
 
 /// The exact level of each region, and a time in the middle of the last segment.
 fn exact(problem: &dyn Problem) -> Result<(Vec<f64>, f64), Failure> {
-    let missing = || Failure::Stopped(format!("{}: no reference levels", problem.card().name));
+    let missing = || {
+        Failure::Stopped(format!(
+            "{}: no reference levels",
+            problem.description().name
+        ))
+    };
     let stopped =
         |error: dmm_problems::reference::ReferenceError| Failure::Stopped(error.to_string());
     let reference = Reference::of(problem)

@@ -1,7 +1,7 @@
 //! Figs 3, 4, 6 and 7: errors of crossing times and states against the step size.
 
 use dmm_problems::convergence::{self, Plan, Study};
-use dmm_problems::method::Method;
+use dmm_problems::method::MethodName;
 use dmm_problems::perturbed::Perturbed;
 use dmm_problems::picture::{COLOURS, Panel, Picture, Stroke};
 use dmm_problems::problem::Problem;
@@ -25,13 +25,13 @@ const PERTURBATIONS: [(i32, f64, f64, &str); 3] = [
 ];
 const HALVINGS: u32 = 6;
 
-fn plan(problem: &dyn Problem, method: Method, step: f64) -> Plan {
+fn plan(problem: &dyn Problem, method: MethodName, step: f64) -> Plan {
     Plan {
         method,
-        initial: problem.card().initial.to_vec(),
+        initial: problem.description().initial.to_vec(),
         after: AFTER.to_vec(),
         step_sizes: halved(step, HALVINGS),
-        t_end: problem.card().t_end,
+        t_end: problem.description().t_end,
     }
 }
 
@@ -44,14 +44,14 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
     let problem = input::problem(name, &[])?;
     let study = convergence::study(
         &*problem,
-        &plan(&*problem, Method::Symmetric, 1.0 / 64.0),
+        &plan(&*problem, MethodName::Symmetric, 1.0 / 64.0),
         || (),
     )?;
     let file = format!("fig{number}_{name}_crossing_time");
     let path = report.out.join(format!("{file}.csv"));
     let mut csv = Csv::create(path, ["crossing", "exact_time", "step_size", "error"])?;
     let (x, y) = axes("|crossing time − exact|");
-    let mut panel = Panel::new(problem.card().title, x, y);
+    let mut panel = Panel::new(problem.description().title, x, y);
     for (k, row) in study.rows.iter().enumerate() {
         let Some(crossing) = &row.crossing else {
             continue;
@@ -109,7 +109,7 @@ pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(),
     )?;
     let mut panels = Vec::new();
     for (power, amplitude, step, title) in PERTURBATIONS {
-        let method = Method::Perturbed(Perturbed { amplitude, power });
+        let method = MethodName::Perturbed(Perturbed { amplitude, power });
         let study = convergence::study(&*problem, &plan(&*problem, method, step), || ())?;
         let (x, y) = axes("‖x̂ − x‖");
         let mut panel = Panel::new(title, x, y);

@@ -47,7 +47,7 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
             }
             all.push(trajectory);
         }
-        let mut panel = portrait::phases(&*problem, &all, (0, 1), problem.card().title);
+        let mut panel = portrait::phases(&*problem, &all, (0, 1), problem.description().title);
         panel.equal_aspect = true;
         panels.push(panel);
     }

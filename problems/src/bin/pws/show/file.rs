@@ -24,11 +24,12 @@ pub(crate) fn declarations(path: &Path) -> Result<Vec<TokenStream>, Failure> {
     if found.is_empty() && is_declaration(&tokens) {
         found.push(tokens);
     }
-    match found.is_empty() {
-        true => Err(Failure::Request(format!(
+    if found.is_empty() {
+        Err(Failure::Request(format!(
             "{shown} declares no system: it has neither `pws! {{ … }}` nor `system Name {{ … }}`"
-        ))),
-        false => Ok(found),
+        )))
+    } else {
+        Ok(found)
     }
 }
 

@@ -1,0 +1,278 @@
+//! The functions whose zeros end a region: an `impl Guards` with g, a bound of its rounding error,
+//! ∂ₜg and ∇g.
+//!
+//! The functions are the same for every region; only the sides differ, and a region is a
+//! constant of the type. A condition u ≠ 0 is that u keeps its sign; this sign is a field.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::emission::Emission;
+use super::function::Scope;
+use super::methods::body;
+use super::paths;
+use super::series::{self, States};
+use super::store::{Store, constructor_impl};
+use crate::model::Sign;
+use crate::program::{Function, Guards, Quantity, Results};
+
+/// The struct `name` of the guards with its `impl`s.
+pub(super) fn guards(emission: &Emission<'_>, name: &Ident, program: &Guards) -> TokenStream {
+    let store = Store::new(&program.functions, &["orientation"]);
+    let scope = Scope {
+        lowered: &program.functions.lowered,
+        store: &store,
+        scalar: &emission.scalar,
+        states: emission.program.states.len(),
+    };
+    let scalar = &emission.scalar;
+    let fields = store.fields(scalar);
+    let (statements, mut values) = store.constructor(scalar);
+    let signs = program.oriented.len();
+    let orientation = (signs > 0).then(|| {
+        let signs = paths::count(signs);
+        values.extend(quote!(orientation: [1.0; #signs],));
+        quote!(orientation: [f64; #signs],)
+    });
+    let constructor = constructor_impl(
+        scalar,
+        &quote!(const REGION: usize, const COUNT: usize),
+        &quote!(#name<#scalar, REGION, COUNT>),
+        emission.program.parameters.len(),
+        &statements,
+        &values,
+    );
+    let implementation = implementation(emission, name, &scope, program);
+    quote! {
+        /// The `COUNT` guards of region number `REGION`: its interfaces, and conditions of proofs.
+        #[derive(Clone, Copy, Debug)]
+        struct #name<#scalar, const REGION: usize, const COUNT: usize> { #orientation #fields }
+        #constructor
+        #implementation
+    }
+}
+
+/// `impl Guards`
+fn implementation(
+    emission: &Emission<'_>,
+    name: &Ident,
+    scope: &Scope<'_>,
+    program: &Guards,
+) -> TokenStream {
+    let (scalar, states) = (&emission.scalar, paths::count(scope.states));
+    let [guards, bound, vector] = ["Guards", "Scalar", "Vector"].map(paths::support);
+    let constants = constants(program);
+    let turns = Turns {
+        scalar: scalar.clone(),
+        oriented: &program.oriented,
+    };
+    let functions = functions(scope, program, &turns);
+    let series = advance(scope, program, &turns);
+    let (orientation, orient) = turns.orient(&vector, &quote!(#states));
+    let other = &emission.other;
+    let fields = scope.store.converted(scalar, other);
+    quote! {
+        #[automatically_derived]
+        impl<#scalar: #bound, const REGION: usize, const COUNT: usize>
+            #guards<#scalar, #states> for #name<#scalar, REGION, COUNT>
+        {
+            #constants
+            type Each<T: ::core::marker::Copy> = [T; COUNT];
+            #[inline]
+            fn each<T: ::core::marker::Copy>(value: impl FnMut(usize) -> T) -> [T; COUNT] {
+                ::core::array::from_fn(value)
+            }
+            type Over<#other: #bound> = #name<#other, REGION, COUNT>;
+            #[inline]
+            fn over<#other: #bound>(&self) -> Self::Over<#other> {
+                #name { #orientation #fields }
+            }
+            #orient
+            #functions
+            #series
+        }
+    }
+}
+
+/// What the trait is told about the functions.
+fn constants(program: &Guards) -> TokenStream {
+    let side = paths::support("Side");
+    let first_condition = program.first_condition.map(|first| {
+        let first = paths::count(first);
+        quote!(const FIRST_CONDITION: usize = #first;)
+    });
+    let regions = paths::count(program.sides.len());
+    let sides = program.sides.iter().map(|sides| {
+        let sides = sides.iter().map(|&(number, side_of)| {
+            let (number, sign) = (paths::count(number), sign(side_of));
+            quote!((#number, #side::#sign))
+        });
+        quote!(&[#(#sides),*])
+    });
+    let autonomous = program.autonomous;
+    let degree = program.degree.map(|degree| {
+        let degree = Literal::u32_unsuffixed(degree);
+        quote! {
+            const DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(#degree);
+        }
+    });
+    quote! {
+        #first_condition
+        const SIDES: &'static [(usize, #side)] = {
+            const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
+            BY_REGION[REGION]
+        };
+        const AUTONOMOUS: bool = #autonomous;
+        #degree
+    }
+}
+
+/// g, the bound of its rounding error, and (∂ₜg, ∇g).
+fn functions(scope: &Scope<'_>, program: &Guards, turns: &Turns<'_>) -> TokenStream {
+    let (scalar, states) = (scope.scalar, paths::count(scope.states));
+    let vector = paths::support("Vector");
+    let each = |quantity: fn(usize) -> Quantity, unknown: TokenStream| {
+        let arms = (0..program.count).map(|index| {
+            let function = program.functions.get(quantity(index));
+            function.map(|function| turns.body(scope, function))
+        });
+        select(arms.flatten().collect(), unknown)
+    };
+    let nan = quote!(#scalar::from_f64(f64::NAN));
+    let value = each(Quantity::SwitchingFunction, nan.clone());
+    let size = each(Quantity::SwitchingSize, nan);
+    let unknown = quote! {(
+        #scalar::from_f64(f64::NAN),
+        #vector::<#scalar, #states>::from_element(#scalar::from_f64(f64::NAN)),
+    )};
+    let gradient = each(Quantity::SwitchingGradient, unknown);
+    let point = quote!(interface: usize, t: #scalar, state: &#vector<#scalar, #states>);
+    quote! {
+        /// g(t, x)
+        #[inline]
+        fn switching_function(&self, #point) -> #scalar { #value }
+        /// A bound of the rounding error of g(t, x), in units of that of 1
+        #[inline]
+        fn switching_size(&self, #point) -> #scalar { #size }
+        /// ∂ₜg(t, x) and ∇g(t, x)
+        #[inline]
+        fn switching_gradient(&self, #point) -> (#scalar, #vector<#scalar, #states>) {
+            #gradient
+        }
+    }
+}
+
+/// The signs of the conditions that keep theirs.
+struct Turns<'a> {
+    scalar: Ident,
+    /// The numbers of these conditions, behind the interfaces.
+    oriented: &'a [usize],
+}
+
+impl Turns<'_> {
+    /// The body of a function, turned with its condition.
+    fn body(&self, scope: &Scope<'_>, function: &Function) -> TokenStream {
+        match (function.quantity, &function.results) {
+            (Quantity::SwitchingFunction(index), &Results::Scalar(root))
+                if let Some(sign) = self.sign(index) =>
+            {
+                scope.body(function, |block| {
+                    let value = block.value(root);
+                    quote!(#sign * (#value))
+                })
+            }
+            (Quantity::SwitchingGradient(index), Results::ScalarAndColumn(by_time, gradient))
+                if let Some(sign) = self.sign(index) =>
+            {
+                scope.body(function, |block| {
+                    let by_time = block.value(*by_time);
+                    let gradient = scope.vector(block, gradient);
+                    quote!((#sign * #by_time, #gradient * #sign))
+                })
+            }
+            _ => body(scope, function),
+        }
+    }
+
+    /// The sign of function number `index`, if it is a field.
+    fn sign(&self, index: usize) -> Option<TokenStream> {
+        let place = self.oriented.iter().position(|&number| number == index)?;
+        let (scalar, place) = (&self.scalar, paths::count(place));
+        Some(quote!(#scalar::from_f64(self.orientation[#place])))
+    }
+
+    /// The field over other scalars, and the method that turns conditions.
+    fn orient(&self, vector: &TokenStream, states: &TokenStream) -> (TokenStream, TokenStream) {
+        if self.oriented.is_empty() {
+            return (TokenStream::new(), TokenStream::new());
+        }
+        let scalar = &self.scalar;
+        let numbers = self.oriented.iter().map(|&number| paths::count(number));
+        let places = (0..self.oriented.len()).map(paths::count);
+        let method = quote! {
+            /// With conditions that are positive at (t, x).
+            fn oriented(&self, t: #scalar, state: &#vector<#scalar, #states>) -> Self {
+                let mut oriented = *self;
+                #(if #scalar::to_f64(self.switching_function(#numbers, t, state)) < 0.0 {
+                    oriented.orientation[#places] = -self.orientation[#places];
+                })*
+                oriented
+            }
+        };
+        (quote!(orientation: self.orientation,), method)
+    }
+}
+
+/// The recurrences of the Taylor coefficients of every g.
+fn advance(scope: &Scope<'_>, program: &Guards, turns: &Turns<'_>) -> TokenStream {
+    let (scalar, slots) = (scope.scalar, paths::count(program.series.slots));
+    let unrolled = series::unrolled(&program.series);
+    let body = series::body(scope, &program.series, States::Given, |index, value| {
+        let place = paths::count(index);
+        match turns.sign(index) {
+            Some(sign) => quote!(series[#place][at] = #sign * (#value);),
+            None => quote!(series[#place][at] = #value;),
+        }
+    });
+    quote! {
+        type Series<const P: usize> = [[#scalar; P]; #slots];
+        type Unrolled = #unrolled;
+        /// No coefficients yet.
+        #[inline]
+        fn series<const P: usize>() -> Self::Series<P> {
+            [[#scalar::from_f64(0.0); P]; #slots]
+        }
+        /// The coefficients of order k of every g along the series of the states.
+        #[inline(always)]
+        fn advance<K: dmm::series::Order, const P: usize>(
+            &self, k: K, t: #scalar, states: &[[#scalar; P]], series: &mut Self::Series<P>
+        ) {
+            #body
+        }
+    }
+}
+
+/// The body for `interface`; without a choice where there is one interface only.
+fn select(bodies: Vec<TokenStream>, unknown: TokenStream) -> TokenStream {
+    if let [body] = &bodies[..] {
+        return body.clone();
+    }
+    let arms = bodies.iter().enumerate().map(|(index, body)| {
+        let index = paths::count(index);
+        quote!(#index => { #body })
+    });
+    quote! {
+        match interface {
+            #(#arms)*
+            _ => #unknown,
+        }
+    }
+}
+
+/// The variant of the runtime's `Side`.
+pub(super) fn sign(sign: Sign) -> TokenStream {
+    match sign {
+        Sign::Negative => quote!(Negative),
+        Sign::Positive => quote!(Positive),
+    }
+}

@@ -1,0 +1,135 @@
+//! The body of `advance`: the coefficients of one order of a [`Series`], with the recurrences of
+//! the runtime's module `series`.
+
+mod recurrences;
+mod writer;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use self::writer::Writer;
+use super::code::Block;
+use super::function::Scope;
+use super::names::Names;
+use super::paths;
+use super::store::variable;
+use crate::program::series::{Place, SeriesResult, Sums};
+use crate::program::{Series, Variable};
+
+/// Where the coefficients of the states are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum States {
+    /// In the first slots, which the recurrences fill.
+    Own,
+    /// In the slice `states`.
+    Given,
+}
+
+impl States {
+    /// The array of coefficients at `place`.
+    fn place(self, place: Place) -> TokenStream {
+        match (place, self) {
+            (Place::State(state), Self::Given) => {
+                let state = paths::count(state);
+                quote!(states[#state])
+            }
+            (Place::State(index), Self::Own) | (Place::Slot(index), _) => {
+                let index = paths::count(index);
+                quote!(series[#index])
+            }
+        }
+    }
+}
+
+/// How the sums are run: the type of the runtime.
+pub(super) fn unrolled(series: &Series) -> TokenStream {
+    match series.sums {
+        Sums::Straight => quote!(dmm::series::Straight),
+        Sums::Rolled => quote!(dmm::series::Rolled),
+    }
+}
+
+/// The body of `advance`: coefficient k of every node, and the statements that `keep` the result
+/// of each root, by its number.
+pub(super) fn body(
+    scope: &Scope<'_>,
+    series: &Series,
+    states: States,
+    keep: impl Fn(usize, &TokenStream) -> TokenStream,
+) -> TokenStream {
+    let mut names = Names::reserving([
+        "self", "k", "t", "at", "states", "series", "base", "sine", "cosine",
+    ]);
+    let mut known = scope.store.known();
+    let mut locals = TokenStream::new();
+    for input in &series.inputs {
+        let local = names.take(&variable(scope.lowered, input.node).to_lowercase());
+        let value = match input.variable {
+            Variable::State(index) => {
+                let place = states.place(Place::State(index));
+                quote!(#place[at])
+            }
+            _ => quote!(dmm::series::time(k, t)),
+        };
+        locals.extend(quote!(let #local = #value;));
+        known.insert(input.node, quote!(#local));
+    }
+    let scalar = scope.scalar;
+    let block = Block::new(
+        scope.lowered,
+        quote!(#scalar),
+        names,
+        &known,
+        &series.operations,
+        &series.roots,
+    );
+    let mut writer = Writer::new(scope, states, block.fusing(true));
+    for coefficient in &series.coefficients {
+        writer.coefficient(coefficient);
+    }
+    let results = results(&mut writer, series, keep);
+    let statements = writer.block.statements();
+    quote! {
+        let at = k.get();
+        #locals
+        #statements
+        #results
+    }
+}
+
+/// The statements that keep the results.
+fn results(
+    writer: &mut Writer<'_, '_>,
+    series: &Series,
+    keep: impl Fn(usize, &TokenStream) -> TokenStream,
+) -> TokenStream {
+    let scalar = writer.scope.scalar;
+    let step = quote!(dmm::series::step::<#scalar, K>(k));
+    let values: Vec<TokenStream> = (series.results.iter())
+        .map(|result| match result {
+            SeriesResult::Value(root) => writer.value(*root),
+            SeriesResult::Solution { value, .. } => writer.scaled(value, step.clone()),
+        })
+        .collect();
+    let later: Vec<Option<TokenStream>> = (series.results.iter())
+        .map(|result| match result {
+            SeriesResult::Solution {
+                later: Some(later), ..
+            } => Some(writer.a_step_later(later, &step)),
+            _ => None,
+        })
+        .collect();
+    let statements = values.iter().zip(later).enumerate();
+    statements
+        .map(|(index, (value, later))| {
+            let place = paths::count(index);
+            match later {
+                None => keep(index, value),
+                Some(later) => quote! {
+                    if at == 0 { series[#place][1] = #value; }
+                    if at + 2 < P { series[#place][at + 2] = #later; }
+                },
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,305 @@
+//! The coefficients of what is not linear: squares, products, quotients, powers and functions.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::writer::{Writer, factor, minus, product};
+use crate::algebra::{Function, Id};
+use crate::program::series::{Base, Place, Primitive, Recurrence};
+
+impl Writer<'_, '_> {
+    /// The coefficient of a node that is not linear in its operands; what is, the block writes.
+    pub(super) fn recurrence(&mut self, id: Id, recurrence: &Recurrence) -> Option<TokenStream> {
+        Some(match *recurrence {
+            Recurrence::Linear => return None,
+            Recurrence::Shifted(shifted) => {
+                let ((minus_u, u), (minus_c, c)) = (shifted.moving, shifted.fixed);
+                let (u, c) = (self.value(u), self.fixed(c));
+                Self::call("plus", &[minus(minus_u, &u), minus(minus_c, &c)])
+            }
+            Recurrence::Square(of) => Self::call("square", &[self.array(of)]),
+            Recurrence::Product(of) => Self::call("product", &of.map(|place| self.array(place))),
+            Recurrence::Quotient {
+                numerator,
+                denominator,
+                own,
+                inverse,
+            } => {
+                let (u, v) = (self.value(numerator), self.place(denominator));
+                let inverse = self.inverse(inverse, &quote!(#v[0]));
+                Self::call("quotient", &[u, quote!(&#v), self.array(own), inverse])
+            }
+            Recurrence::Power {
+                base,
+                exponent,
+                own,
+                inverse,
+            } => self.power(base, exponent, own, inverse),
+            Recurrence::VariablePower {
+                base,
+                exponent,
+                derivative,
+                own,
+            } => self.variable_power(base, exponent, derivative, own),
+            _ => self.function(id, recurrence),
+        })
+    }
+
+    /// The reciprocal of `value`, taken at order zero.
+    fn inverse(&mut self, place: Place, value: &TokenStream) -> TokenStream {
+        let (slot, scalar) = (self.place(place), self.scope.scalar);
+        let value = factor(value);
+        self.block.push(quote! {
+            if at == 0 { #slot[0] = #scalar::from_f64(1.0) / #value; }
+        });
+        quote!(#slot[0])
+    }
+
+    fn power(&mut self, base: Place, exponent: Id, own: Place, inverse: Place) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let integer = self.scope.lowered.dag().as_integer(exponent);
+        let (exponent, u) = (self.fixed(exponent), self.place(base));
+        let inverse = self.inverse(inverse, &quote!(#u[0]));
+        let rest = [quote!(&#u), exponent.clone(), self.array(own), inverse];
+        let rest = Self::call("power", &rest);
+        let start = match integer.map(i32::try_from) {
+            Some(Ok(n)) => {
+                let n = Literal::i32_unsuffixed(n);
+                quote!(#scalar::powi(#u[0], #n))
+            }
+            _ => quote!(#scalar::powf(#u[0], #exponent)),
+        };
+        quote!(if at == 0 { #start } else { #rest })
+    }
+
+    /// u^v = e^(v ln u), v changing with the time.
+    fn variable_power(
+        &mut self,
+        base: Base,
+        exponent: Id,
+        derivative: Place,
+        own: Place,
+    ) -> TokenStream {
+        let (scalar, d) = (self.scope.scalar, self.place(derivative));
+        let exponent = self.value(exponent);
+        let (base, logarithm_times) = match base {
+            Base::Moving {
+                base,
+                exponent,
+                logarithm,
+                primitive,
+            } => {
+                let (u, ln) = (self.place(base), self.place(logarithm));
+                let value = self.primitive(&primitive, &quote!(#scalar::ln(#u[0])));
+                self.block.push(quote!(#ln[at] = #value;));
+                let factors = [self.array(exponent), quote!(&#ln)];
+                (quote!(#u[0]), Self::call("product", &factors))
+            }
+            Base::Fixed { base, logarithm } => {
+                let (base, slot) = (self.fixed(base), self.place(logarithm));
+                self.block
+                    .push(quote!(if at == 0 { #slot[0] = #scalar::ln(#base); }));
+                (base, product(&exponent, &quote!(#slot[0])))
+            }
+        };
+        let value = Self::call("derivative", &[logarithm_times]);
+        self.block.push(quote!(#d[at] = #value;));
+        let later = Self::call("integral", &[quote!(&#d), self.array(own)]);
+        quote!(if at == 0 { #scalar::powf(#base, #exponent) } else { #later })
+    }
+
+    /// h du/dh
+    fn derivative(&mut self, argument: Id, place: Place) -> TokenStream {
+        let (u, slot) = (self.value(argument), self.place(place));
+        let value = Self::call("derivative", &[u]);
+        self.block.push(quote!(#slot[at] = #value;));
+        slot
+    }
+
+    /// The recurrence of a function.
+    fn function(&mut self, id: Id, recurrence: &Recurrence) -> TokenStream {
+        match *recurrence {
+            Recurrence::SquareRoot {
+                argument,
+                own,
+                inverse,
+            } => self.square_root(argument, own, inverse),
+            Recurrence::Exponential {
+                argument,
+                derivative,
+                own,
+            } => self.exponential(argument, derivative, own),
+            Recurrence::Pair {
+                functions,
+                argument,
+                derivative,
+                places,
+                own,
+            } => {
+                self.pair(functions, argument, derivative, places);
+                self.newest(own)
+            }
+            Recurrence::Computed(own) => self.newest(own),
+            Recurrence::Tangent {
+                function,
+                argument,
+                derivative,
+                own,
+                partner,
+            } => self.tangent(function, argument, derivative, [own, partner]),
+            Recurrence::Logarithm(primitive) => {
+                let start = self.start(Function::Ln, primitive.argument);
+                self.primitive(&primitive, &start)
+            }
+            Recurrence::ArcTangent {
+                argument,
+                primitive,
+            } => self.arc_tangent(argument, &primitive),
+            Recurrence::ArcSine {
+                function,
+                argument,
+                inverse,
+                primitive,
+            } => self.arc_sine(function, argument, inverse, &primitive),
+            _ => {
+                let message = format!("no series of node {id}");
+                quote!(compile_error!(#message))
+            }
+        }
+    }
+
+    /// The coefficient of order k at `place`.
+    fn newest(&self, place: Place) -> TokenStream {
+        let place = self.place(place);
+        quote!(#place[at])
+    }
+
+    /// The value of a function at order zero.
+    fn start(&mut self, function: Function, argument: Id) -> TokenStream {
+        let (scalar, method) = (self.scope.scalar, format_ident!("{}", function.name()));
+        let value = self.value(argument);
+        quote!(#scalar::#method(#value))
+    }
+
+    /// √u
+    fn square_root(&mut self, argument: Id, own: Place, inverse: Place) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let value = self.value(argument);
+        let root = quote!(#scalar::sqrt(#value));
+        let inverse = self.inverse(inverse, &quote!(#scalar::from_f64(2.0) * #root));
+        let later = Self::call("square_root", &[value, self.array(own), inverse]);
+        quote!(if at == 0 { #root } else { #later })
+    }
+
+    /// eᵘ; of u = ±p t the product is rounded once.
+    fn exponential(&mut self, argument: Id, derivative: Place, own: Place) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let mut start = self.start(Function::Exp, argument);
+        if let Some((negative, p, _)) = self.scope.lowered.secular(argument) {
+            let p = self.fixed(p);
+            let sign = negative.then(|| quote!(-));
+            start = quote!(#scalar::exp_product(#sign #p, t));
+        }
+        let d = self.derivative(argument, derivative);
+        let later = Self::call("integral", &[quote!(&#d), self.array(own)]);
+        quote!(if at == 0 { #start } else { #later })
+    }
+
+    /// w = tan u or tanh u, and v = 1 ± w², one order behind w.
+    fn tangent(
+        &mut self,
+        function: Function,
+        argument: Id,
+        derivative: Place,
+        [own, partner]: [Place; 2],
+    ) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let start = self.start(function, argument);
+        let d = self.derivative(argument, derivative);
+        let (w, v) = (self.place(own), self.place(partner));
+        let value = Self::call("integral", &[quote!(&#d), quote!(&#v)]);
+        let square = Self::call("square", &[quote!(&#w)]);
+        let one = quote!(#scalar::from_f64(1.0));
+        let partner = Self::call("plus", &[minus(function == Function::Tanh, &square), one]);
+        self.block.push(quote! {
+            #w[at] = if at == 0 { #start } else { #value };
+            #v[at] = #partner;
+        });
+        quote!(#w[at])
+    }
+
+    /// ∫ du/v with v = 1 + u²
+    fn arc_tangent(&mut self, argument: Place, primitive: &Primitive) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let start = self.start(Function::Atan, primitive.argument);
+        let v = self.place(primitive.divisor);
+        let square = Self::call("square", &[self.array(argument)]);
+        let value = Self::call("plus", &[square, quote!(#scalar::from_f64(1.0))]);
+        self.block.push(quote!(#v[at] = #value;));
+        self.primitive(primitive, &start)
+    }
+
+    /// ±∫ du/v with v = √(1 − u²)
+    fn arc_sine(
+        &mut self,
+        function: Function,
+        argument: Place,
+        inverse: Place,
+        primitive: &Primitive,
+    ) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let start = self.start(function, primitive.argument);
+        let v = self.place(primitive.divisor);
+        let square = Self::call("square", &[self.array(argument)]);
+        let one = quote!(#scalar::from_f64(1.0));
+        let base = Self::call("plus", &[minus(true, &square), one]);
+        self.block.push(quote!(let base = #base;));
+        let twice = quote!(#scalar::from_f64(2.0) * #scalar::sqrt(base));
+        let inverse = self.inverse(inverse, &twice);
+        let later = Self::call("square_root", &[quote!(base), quote!(&#v), inverse]);
+        self.block.push(quote! {
+            #v[at] = if at == 0 { #scalar::sqrt(base) } else { #later };
+        });
+        self.primitive(primitive, &start)
+    }
+
+    /// sin and cos, sinh and cosh: each the integral of the other.
+    fn pair(
+        &mut self,
+        functions: [Function; 2],
+        argument: Id,
+        derivative: Place,
+        places: [Place; 2],
+    ) {
+        let [sine, cosine] = functions.map(|one| self.start(one, argument));
+        let d = self.derivative(argument, derivative);
+        let [s, c] = places.map(|place| self.place(place));
+        let next_sine = Self::call("integral", &[quote!(&#d), quote!(&#c)]);
+        let next_cosine = Self::call("integral", &[quote!(&#d), quote!(&#s)]);
+        let next_cosine = minus(functions[0] == Function::Sin, &next_cosine);
+        self.block.push(quote! {
+            let (sine, cosine) = if at == 0 {
+                (#sine, #cosine)
+            } else {
+                (#next_sine, #next_cosine)
+            };
+            #s[at] = sine;
+            #c[at] = cosine;
+        });
+    }
+
+    /// w = ±∫ du/v
+    fn primitive(&mut self, primitive: &Primitive, start: &TokenStream) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let (e, v) = (self.place(primitive.slope), self.place(primitive.divisor));
+        let inverse = self.inverse(primitive.inverse, &quote!(#v[0]));
+        let value = self.value(primitive.argument);
+        let derivative = Self::call("derivative", &[minus(primitive.is_negative, &value)]);
+        let slope = Self::call("slope", &[derivative, quote!(&#v), quote!(&#e), inverse]);
+        self.block.push(quote! {
+            #e[at] = if at == 0 { #scalar::from_f64(0.0) } else { #slope };
+        });
+        let value = Self::call("antiderivative", &[quote!(#e[at])]);
+        quote!(if at == 0 { #start } else { #value })
+    }
+}

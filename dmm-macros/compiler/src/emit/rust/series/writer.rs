@@ -1,0 +1,174 @@
+//! The statements of one order, node by node, and the results.
+
+use std::collections::BTreeMap;
+
+use proc_macro2::{Ident, TokenStream, TokenTree};
+use quote::{format_ident, quote};
+
+use super::States;
+use crate::algebra::Id;
+use crate::emit::rust::code::Block;
+use crate::emit::rust::function::Scope;
+use crate::program::series::{Coefficient, Factor, Later, Place, Scaled};
+
+/// Writes the coefficient of one node after the other.
+pub(super) struct Writer<'a, 'b> {
+    pub(super) scope: &'b Scope<'a>,
+    pub(super) block: Block<'b>,
+    states: States,
+    /// The names of the halves of squares.
+    halves: BTreeMap<Id, Ident>,
+}
+
+impl<'a, 'b> Writer<'a, 'b> {
+    /// One that writes into `block`.
+    pub(super) fn new(scope: &'b Scope<'a>, states: States, block: Block<'b>) -> Self {
+        Self {
+            scope,
+            block,
+            states,
+            halves: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn call(name: &str, arguments: &[TokenStream]) -> TokenStream {
+        let name = format_ident!("{name}");
+        quote!(dmm::series::#name(k, #(#arguments),*))
+    }
+
+    /// The array of coefficients at `place`.
+    pub(super) fn place(&self, place: Place) -> TokenStream {
+        self.states.place(place)
+    }
+
+    /// A reference to the array of coefficients at `place`.
+    pub(super) fn array(&self, place: Place) -> TokenStream {
+        let place = self.place(place);
+        quote!(&#place)
+    }
+
+    /// The coefficient of a node, a constant's too.
+    pub(super) fn value(&mut self, id: Id) -> TokenStream {
+        let value = self.fixed(id);
+        if self.scope.lowered.is_fixed(id) {
+            Self::call("constant", &[value])
+        } else {
+            value
+        }
+    }
+
+    /// The value of something that is constant in time.
+    pub(super) fn fixed(&mut self, id: Id) -> TokenStream {
+        self.block.require(id);
+        self.block.value(id)
+    }
+
+    /// Coefficient k of a node, kept in its slot if it has one.
+    pub(super) fn coefficient(&mut self, coefficient: &Coefficient) {
+        let id = coefficient.node;
+        if let Some(value) = self.recurrence(id, &coefficient.recurrence) {
+            self.block.define(id, &value);
+        }
+        if let Some(slot) = coefficient.kept {
+            let place = self.place(Place::Slot(slot));
+            self.block.name_value(id);
+            let value = self.block.value(id);
+            self.block.push(quote!(#place[at] = #value;));
+        }
+    }
+
+    /// The coefficient of a node times `scale`.
+    pub(super) fn scaled(&mut self, scaled: &Scaled, scale: TokenStream) -> TokenStream {
+        match scaled {
+            Scaled::Constant(id) => {
+                let value = self.fixed(*id);
+                Self::call("constant", &[product(&value, &scale)])
+            }
+            Scaled::Node(id) => {
+                let value = self.value(*id);
+                Self::call("scaled", &[value, scale])
+            }
+            Scaled::Multiple(factor, of) => {
+                let scale = self.multiplied(*factor, &scale);
+                self.scaled(of, scale)
+            }
+            Scaled::Shifted {
+                is_negative,
+                moving,
+                fixed: (is_subtracted, fixed),
+            } => {
+                let c = self.fixed(*fixed);
+                let u = self.scaled(moving, minus(*is_negative, &scale));
+                let c = minus(*is_subtracted, &product(&c, &scale));
+                Self::call("plus", &[u, c])
+            }
+            Scaled::Square { node, of } => {
+                let (half, scalar) = (self.half(*node, *of), self.scope.scalar);
+                let scale = product(&quote!(#scalar::from_f64(2.0)), &scale);
+                Self::call("scaled", &[quote!(#half), scale])
+            }
+        }
+    }
+
+    /// Half of the square `node` of the series at `of`, under a name.
+    fn half(&mut self, node: Id, of: Place) -> Ident {
+        if let Some(half) = self.halves.get(&node) {
+            return half.clone();
+        }
+        let value = Self::call("half_square", &[self.array(of)]);
+        let half = self.block.fresh("half");
+        self.block.push(quote!(let #half = #value;));
+        self.halves.insert(node, half.clone());
+        half
+    }
+
+    /// A scale with one more factor.
+    fn multiplied(&mut self, factor: Factor, scale: &TokenStream) -> TokenStream {
+        match factor {
+            Factor::Minus => minus(true, scale),
+            Factor::Node(c) => {
+                let c = self.fixed(c);
+                product(&c, scale)
+            }
+        }
+    }
+
+    /// Coefficient k + 2 of a state.
+    pub(super) fn a_step_later(&mut self, later: &Later, scale: &TokenStream) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let mut scale = product(scale, &quote!(dmm::series::next_step::<#scalar, K>(k)));
+        if let Some(factor) = later.factor {
+            scale = self.multiplied(factor, &scale);
+        }
+        self.scaled(&later.value, scale)
+    }
+}
+
+/// In parentheses if it is no single factor.
+pub(super) fn factor(tokens: &TokenStream) -> TokenStream {
+    let is_operator = |tree: TokenTree| match tree {
+        TokenTree::Punct(sign) => matches!(sign.as_char(), '+' | '-' | '*' | '/'),
+        TokenTree::Ident(ident) => ident == "if",
+        _ => false,
+    };
+    if tokens.clone().into_iter().any(is_operator) {
+        quote!((#tokens))
+    } else {
+        tokens.clone()
+    }
+}
+
+/// a·b, computed in this order.
+pub(super) fn product(a: &TokenStream, b: &TokenStream) -> TokenStream {
+    let (a, b) = (factor(a), factor(b));
+    quote!(#a * #b)
+}
+
+/// ±u
+pub(super) fn minus(negative: bool, u: &TokenStream) -> TokenStream {
+    if !negative {
+        return u.clone();
+    }
+    let u = factor(u);
+    quote!(-#u)
+}

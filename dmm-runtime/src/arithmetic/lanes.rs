@@ -1,0 +1,217 @@
+//! Several scalars at once, the lanes of a vector register.
+
+use std::array::from_fn;
+use std::cmp::Ordering;
+use std::hint::black_box;
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use crate::arithmetic::Scalar;
+
+/// L doubles that are computed with together, each in a lane of its own.
+///
+/// It is an array, whose operations the compiler turns into instructions for vector registers
+/// where the function that they are inlined into allows them. [`Scalar::fused`] is one
+/// instruction there, and slow elsewhere.
+///
+/// A comparison holds if it holds in every lane.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[repr(align(32))]
+pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
+
+impl<const L: usize> Lanes<L> {
+    /// The results of `value` by lane.
+    #[inline(always)]
+    fn each(value: impl FnMut(usize) -> f64) -> Self {
+        Self(from_fn(value))
+    }
+
+    /// The larger of both.
+    #[inline(always)]
+    pub(crate) fn max(self, other: Self) -> Self {
+        Self::each(|i| {
+            if self.0[i] > other.0[i] {
+                self.0[i]
+            } else {
+                other.0[i]
+            }
+        })
+    }
+
+    /// The smaller of both.
+    #[inline(always)]
+    pub(crate) fn min(self, other: Self) -> Self {
+        Self::each(|i| {
+            if self.0[i] < other.0[i] {
+                self.0[i]
+            } else {
+                other.0[i]
+            }
+        })
+    }
+
+    /// Where it is greater.
+    #[inline(always)]
+    pub(crate) fn above(self, other: Self) -> Mask<L> {
+        Mask(from_fn(|i| every_bit(self.0[i] > other.0[i])))
+    }
+
+    /// Where it is equal.
+    #[inline(always)]
+    pub(crate) fn equals(self, other: Self) -> Mask<L> {
+        Mask(from_fn(|i| every_bit(self.0[i] == other.0[i])))
+    }
+}
+
+/// All bits or none.
+#[inline(always)]
+fn every_bit(set: bool) -> u64 {
+    if set { u64::MAX } else { 0 }
+}
+
+/// A truth value for each lane: all bits or none, as vector registers have it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Mask<const L: usize>([u64; L]);
+
+impl<const L: usize> Mask<L> {
+    /// The same in every lane.
+    #[inline(always)]
+    pub(crate) fn all(set: bool) -> Self {
+        Self([every_bit(set); L])
+    }
+
+    /// Both.
+    #[inline(always)]
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self(from_fn(|i| self.0[i] & other.0[i]))
+    }
+
+    /// One or both.
+    #[inline(always)]
+    pub(crate) fn or(self, other: Self) -> Self {
+        Self(from_fn(|i| self.0[i] | other.0[i]))
+    }
+
+    /// Neither.
+    #[inline(always)]
+    pub(crate) fn not(self) -> Self {
+        Self(from_fn(|i| !self.0[i]))
+    }
+
+    /// Whether it is true in any lane.
+    #[inline(always)]
+    pub(crate) fn any(self) -> bool {
+        self.0.iter().fold(0, |any, lane| any | lane) != 0
+    }
+
+    /// The one where it is true, the other elsewhere.
+    #[inline(always)]
+    pub(crate) fn select(self, one: Lanes<L>, other: Lanes<L>) -> Lanes<L> {
+        Lanes::each(|i| {
+            let (one, other) = (one.0[i].to_bits(), other.0[i].to_bits());
+            f64::from_bits((one & self.0[i]) | (other & !self.0[i]))
+        })
+    }
+}
+
+impl<const L: usize> PartialOrd for Lanes<L> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        let mut orders = self.0.iter().zip(&other.0).map(|(a, b)| a.partial_cmp(b));
+        let first = orders.next()??;
+        orders.all(|order| order == Some(first)).then_some(first)
+    }
+
+    #[inline]
+    fn le(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(a, b)| a <= b)
+    }
+
+    #[inline]
+    fn ge(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).all(|(a, b)| a >= b)
+    }
+}
+
+impl<const L: usize> Neg for Lanes<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::each(|i| -self.0[i])
+    }
+}
+
+/// The operators, by lane.
+macro_rules! operators {
+    ($($operator:ident $function:ident $assign:ident $assign_function:ident $symbol:tt;)*) => {$(
+        impl<const L: usize> $operator for Lanes<L> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                Self::each(|i| self.0[i] $symbol other.0[i])
+            }
+        }
+
+        impl<const L: usize> $assign for Lanes<L> {
+            #[inline(always)]
+            fn $assign_function(&mut self, other: Self) {
+                *self = *self $symbol other;
+            }
+        }
+    )*};
+}
+
+operators! {
+    Add add AddAssign add_assign +;
+    Sub sub SubAssign sub_assign -;
+    Mul mul MulAssign mul_assign *;
+    Div div DivAssign div_assign /;
+}
+
+/// The functions of a double, by lane.
+macro_rules! by_lane {
+    ($($function:ident($($other:ident)?))*) => {$(
+        #[inline(always)]
+        fn $function(self $(, $other: Self)?) -> Self {
+            Self::each(|i| Scalar::$function(self.0[i] $(, $other.0[i])?))
+        }
+    )*};
+}
+
+impl<const L: usize> Scalar for Lanes<L> {
+    const ROUNDING: Self = Self([f64::ROUNDING; L]);
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        Self([value; L])
+    }
+
+    /// Lane 0.
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self.0.first().copied().unwrap_or(f64::NAN)
+    }
+
+    #[inline(always)]
+    fn fused(self, b: Self, c: Self) -> Self {
+        Self::each(|i| self.0[i].mul_add(b.0[i], c.0[i]))
+    }
+
+    /// By way of memory.
+    #[inline(always)]
+    fn settled(self) -> Self {
+        black_box(self)
+    }
+
+    #[inline(always)]
+    fn powi(self, n: i32) -> Self {
+        Self::each(|i| Scalar::powi(self.0[i], n))
+    }
+
+    by_lane! {
+        abs() sqrt() exp() ln() sin() cos() tan() sinh() cosh() tanh() asin() acos() atan()
+        powf(v) exp_product(b) sinc() sinc_prime() sinhc() sinhc_prime() ln_dd(b) ln_dd_prime(b)
+        asin_dd(b) asin_dd_prime(b) atan_dd(b) atan_dd_prime(b)
+    }
+}

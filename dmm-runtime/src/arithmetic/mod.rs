@@ -1,0 +1,22 @@
+//! Numbers: scalars, pairs of doubles, time and state with their remainders, lanes, and the small
+//! linear systems of a step.
+
+pub(crate) mod error_free;
+pub(crate) mod lanes;
+pub(crate) mod linear;
+mod minimal_norm;
+mod scalar;
+mod sparse;
+mod state;
+mod time;
+
+pub use minimal_norm::MinimalNorm;
+pub use scalar::Scalar;
+pub use sparse::sparse;
+pub use state::State;
+pub use time::Time;
+
+/// A column of N scalars.
+pub type Vector<S, const N: usize> = nalgebra::SVector<S, N>;
+/// A matrix of R rows and C columns.
+pub type Matrix<S, const R: usize, const C: usize> = nalgebra::SMatrix<S, R, C>;

@@ -1,0 +1,100 @@
+//! The scalars that generated evaluation functions are generic over.
+
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A real scalar: `f64`; within this crate also pairs of doubles, and several doubles at once.
+///
+/// Constants enter through [`Scalar::from_f64`]. The elementary functions are those of the
+/// declaration language; the others are the divided differences that the Discrete Multiplier
+/// Method needs, see [`special`](crate::special).
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// Half the distance from 1 to the next scalar: the relative rounding error.
+    const ROUNDING: Self;
+
+    /// The scalar nearest to `value`.
+    fn from_f64(value: f64) -> Self;
+    /// The value as a double.
+    fn to_f64(self) -> f64;
+    /// u·b + c, u = self: with one rounding where the processor has an instruction for it,
+    /// which the target's features tell, and otherwise with two. (A library's fused operation
+    /// takes several times as long as a product and a sum.)
+    fn fused(self, b: Self, c: Self) -> Self;
+    /// u, where a chain of operations is so long that it is better interrupted. (Of several
+    /// scalars at once the compiler finds only ten operations or so that belong together.)
+    #[inline(always)]
+    fn settled(self) -> Self {
+        self
+    }
+    /// u²
+    #[inline(always)]
+    fn squared(self) -> Self {
+        self * self
+    }
+    /// |u|
+    fn abs(self) -> Self;
+    /// √u
+    fn sqrt(self) -> Self;
+    /// eᵘ
+    fn exp(self) -> Self;
+    /// ln u
+    fn ln(self) -> Self;
+    /// sin u
+    fn sin(self) -> Self;
+    /// cos u
+    fn cos(self) -> Self;
+    /// tan u
+    fn tan(self) -> Self;
+    /// sinh u
+    fn sinh(self) -> Self;
+    /// cosh u
+    fn cosh(self) -> Self;
+    /// tanh u
+    fn tanh(self) -> Self;
+    /// asin u
+    fn asin(self) -> Self;
+    /// acos u
+    fn acos(self) -> Self;
+    /// atan u
+    fn atan(self) -> Self;
+    /// uⁿ for an integer n
+    fn powi(self, n: i32) -> Self;
+    /// uᵛ
+    fn powf(self, v: Self) -> Self;
+    /// e^{u·b}, u = self, without the rounding error of the product
+    fn exp_product(self, b: Self) -> Self;
+    /// sin(u)/u
+    fn sinc(self) -> Self;
+    /// d sinc(u)/du
+    fn sinc_prime(self) -> Self;
+    /// sinh(u)/u
+    fn sinhc(self) -> Self;
+    /// d sinhc(u)/du
+    fn sinhc_prime(self) -> Self;
+    /// (ln b − ln a)/(b − a), a = self
+    fn ln_dd(self, b: Self) -> Self;
+    /// ∂ ln_dd(a, b)/∂b
+    fn ln_dd_prime(self, b: Self) -> Self;
+    /// (asin b − asin a)/(b − a), a = self
+    fn asin_dd(self, b: Self) -> Self;
+    /// ∂ asin_dd(a, b)/∂b
+    fn asin_dd_prime(self, b: Self) -> Self;
+    /// (atan b − atan a)/(b − a), a = self
+    fn atan_dd(self, b: Self) -> Self;
+    /// ∂ atan_dd(a, b)/∂b
+    fn atan_dd_prime(self, b: Self) -> Self;
+}

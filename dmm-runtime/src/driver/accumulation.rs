@@ -1,0 +1,53 @@
+//! Transitions that accumulate (Zeno).
+
+use crate::arithmetic::{Time, Vector};
+use crate::contract::System;
+use crate::error::{Error, ErrorKind};
+
+/// Transitions that are seen together.
+const TOGETHER: u64 = 1000;
+
+/// Whether transitions accumulate: so many within so short a time that doubles do not tell it from
+/// none, as a part of the time since the start of the run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Accumulation {
+    start: Time,
+    /// The time of the first of those that are seen together.
+    first: Time,
+    count: u64,
+}
+
+impl Accumulation {
+    /// At the start of a run.
+    pub(crate) fn new(start: Time) -> Self {
+        Self {
+            start,
+            first: start,
+            count: 0,
+        }
+    }
+
+    /// Counts a transition.
+    pub(crate) fn count<Sys: System<N>, const N: usize>(
+        &mut self,
+        (interface, region): (usize, Sys::Region),
+        time: Time,
+        x: &Vector<f64, N>,
+    ) -> Result<(), Error> {
+        self.count += 1;
+        if !self.count.is_multiple_of(TOGETHER) {
+            return Ok(());
+        }
+        let within = time.since(self.first);
+        if within <= f64::EPSILON * time.since(self.start) {
+            let kind = ErrorKind::Zeno {
+                interface: Sys::guard_name(interface),
+                transitions: TOGETHER,
+                within,
+            };
+            return Err(kind.at(time.value, x.as_slice(), Sys::region_name(region)));
+        }
+        self.first = time;
+        Ok(())
+    }
+}

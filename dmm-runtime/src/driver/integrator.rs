@@ -1,0 +1,215 @@
+//! The integrator: a system, a scheme and a start, run until an end time.
+
+use std::ops::ControlFlow;
+
+use super::Recording;
+use super::conditions::check_conditions;
+use super::run::Run;
+use super::start::{Start, check_region, find_region};
+use crate::contract::{System, Vector};
+use crate::error::{Error, invalid, number};
+use crate::method::Method;
+use crate::output::{End, Halted, Interrupted, Observer, Point, Solution};
+
+/// Beyond it products of times overflow.
+const LARGEST_TIME: f64 = 1e250;
+
+/// An initial value problem ẋ = f(t, x), x(t₀) = x₀ for a piecewise-smooth system, with the
+/// method to integrate it.
+///
+/// ```
+/// use dmm_runtime::{Integrator, Symmetric, pws};
+///
+/// pws! {
+///     /// A pendulum.
+///     pub system Pendulum {
+///         state q, p;
+///         param k = 1.0;
+///         der(q) = p;
+///         der(p) = -k * sin(q);
+///         conserved energy = p^2 / 2 - k * cos(q);
+///     }
+/// }
+///
+/// let system = Pendulum { k: 4.0 };
+/// let solution = Integrator::new(&system, Symmetric::step_size(1e-2))
+///     .initial(0.0, [0.5, 1.0])
+///     .run_until(10.0)?;
+/// let x = solution.at(3.7)?;
+/// let energy = |x: &[f64]| x[1].powi(2) / 2.0 - 4.0 * x[0].cos();
+/// assert!((energy(x.as_slice()) - energy(&[0.5, 1.0])).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Integrator<'a, Sys, Met> {
+    pub(crate) system: &'a Sys,
+    pub(crate) method: Met,
+}
+
+impl<'a, Sys, Met: Method> Integrator<'a, Sys, Met> {
+    /// The integrator of `system` by `method`.
+    pub fn new(system: &'a Sys, method: Met) -> Self {
+        Self { system, method }
+    }
+
+    /// The initial value x(t₀) = x₀.
+    #[must_use]
+    pub fn initial<const N: usize>(
+        self,
+        t0: f64,
+        x0: impl Into<Vector<f64, N>>,
+    ) -> InitialValueProblem<'a, Sys, Met, N>
+    where
+        Sys: System<N>,
+    {
+        InitialValueProblem {
+            integrator: self,
+            t0,
+            x0: x0.into(),
+            region: None,
+        }
+    }
+}
+
+/// An [`Integrator`] with its initial value; see [`Integrator::initial`].
+#[derive(Clone, Debug)]
+pub struct InitialValueProblem<'a, Sys: System<N>, Met, const N: usize> {
+    pub(crate) integrator: Integrator<'a, Sys, Met>,
+    pub(crate) t0: f64,
+    pub(crate) x0: Vector<f64, N>,
+    region: Option<Sys::Region>,
+}
+
+impl<'a, Sys, Met, const N: usize> InitialValueProblem<'a, Sys, Met, N>
+where
+    Sys: System<N>,
+    Met: Method,
+{
+    /// Names the region to start in. Only a start on an interface from which both vector
+    /// fields lead away needs it; elsewhere it is checked.
+    #[must_use]
+    pub fn region(self, region: Sys::Region) -> Self {
+        Self {
+            region: Some(region),
+            ..self
+        }
+    }
+
+    /// Keeps the ends of every `every`-th step only (default 1, at least 1); the start, the
+    /// end and both sides of each transition are always kept.
+    #[must_use]
+    pub fn every(self, every: u64) -> Recording<'a, Sys, Met, N> {
+        Recording::new(self).every(every)
+    }
+
+    /// Keeps the solution at these times, in ascending order, instead of the ends of steps.
+    /// The steps do not change.
+    #[must_use]
+    pub fn output_times(self, times: impl Into<Vec<f64>>) -> Recording<'a, Sys, Met, N> {
+        Recording::new(self).output_times(times)
+    }
+
+    /// Integrates until `t_end` and returns the trajectory, with the end of every step.
+    ///
+    /// # Errors
+    /// Bad input, or whatever stopped the integration; the error carries the solution up to
+    /// there.
+    pub fn run_until(self, t_end: f64) -> Result<Solution<Sys, Met, N>, Interrupted<Sys, Met, N>> {
+        Recording::new(self).run_until(t_end)
+    }
+
+    /// Integrates until `t_end` in constant memory, telling `observer` of it. What it is told
+    /// of is the observer's to choose: see [`Observer::next_output`] for output at given times.
+    ///
+    /// # Errors
+    /// Bad input, or whatever stopped the integration; the error carries the end that was
+    /// reached and what was done until then.
+    pub fn observe_until<Obs: Observer<Sys::Region, N>>(
+        &self,
+        t_end: f64,
+        observer: &mut Obs,
+    ) -> Result<End<Sys::Region, N>, Halted<Sys::Region, N>> {
+        let start = self.start(t_end).map_err(Halted::at_start)?;
+        let Integrator { system, method } = &self.integrator;
+        let system = *system;
+        let mut run = Run::<Sys, Met, N>::new(method, (self.t0, self.x0), start, t_end);
+        while let Some(t) = observer.next_output()
+            && t <= self.t0
+        {
+            observer.output(&Point { t, ..run.point() });
+        }
+        let result = match observer.point(&run.point()) {
+            ControlFlow::Continue(()) => run.run_until(system, method, t_end, observer),
+            ControlFlow::Break(()) => Ok(()),
+        };
+        let end = run.end();
+        match result {
+            Ok(()) => Ok(end),
+            Err(error) => Err(Halted::new(error, end)),
+        }
+    }
+
+    /// The region to start in, after all input is checked.
+    pub(crate) fn start(&self, t_end: f64) -> Result<Start<Sys::Region>, Error> {
+        self.check_input(t_end)?;
+        let system = self.integrator.system;
+        let start = match self.region {
+            Some(region) => check_region(system, region, self.t0, &self.x0),
+            None => find_region(system, self.t0, &self.x0),
+        }?;
+        check_conditions(system, start.region, self.t0, &self.x0)?;
+        Ok(start)
+    }
+
+    pub(crate) fn memory(&self, t_end: f64) -> Met::Memory<N> {
+        self.integrator.method.memory(self.t0, t_end)
+    }
+
+    fn check_input(&self, t_end: f64) -> Result<(), Error> {
+        self.integrator.method.check(self.t0, t_end)?;
+        check_times(self.t0, t_end)?;
+        check_values(self.integrator.system, &self.x0)
+    }
+}
+
+/// Checks the ends of a run.
+pub(super) fn check_times(t0: f64, t_end: f64) -> Result<(), Error> {
+    if !t0.is_finite() {
+        return invalid("initial time", number(t0), "must be finite");
+    }
+    if !(t_end.is_finite() && t_end >= t0) {
+        return invalid(
+            "end time",
+            number(t_end),
+            "must be finite and not before the initial time",
+        );
+    }
+    if t0.abs().max(t_end.abs()) > LARGEST_TIME {
+        return invalid(
+            "time",
+            format!("{:e}", t0.abs().max(t_end.abs())),
+            "must be at most 1e250",
+        );
+    }
+    Ok(())
+}
+
+/// Checks the state and the parameters at a start.
+pub(super) fn check_values<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    x0: &Vector<f64, N>,
+) -> Result<(), Error> {
+    if let Some(i) = (0..N).find(|&i| !x0[i].is_finite()) {
+        return invalid(
+            "initial state",
+            format!("{} = {}", Sys::STATES[i], x0[i]),
+            "must be finite",
+        );
+    }
+    let parameters = Sys::PARAMETERS.iter().zip(system.parameters());
+    let mut infinite = parameters.filter(|(_, value)| !value.is_finite());
+    match infinite.next() {
+        Some((name, value)) => invalid("parameter", format!("{name} = {value}"), "must be finite"),
+        None => Ok(()),
+    }
+}

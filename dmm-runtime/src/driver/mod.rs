@@ -1,0 +1,22 @@
+//! The driver: from mode to mode, until the end.
+//!
+//! The algorithm is one page, `run`; [`Integrator`] pushes it to an end time, and
+//! [`Stepper`] pulls it a step at a time.
+
+mod accumulation;
+mod conditions;
+mod integrator;
+mod next;
+mod reading;
+mod recording;
+mod run;
+mod segment;
+mod start;
+mod stepper;
+
+pub(crate) use accumulation::Accumulation;
+pub use integrator::{InitialValueProblem, Integrator};
+pub(crate) use next::{enter, neighbour};
+pub use recording::Recording;
+pub(crate) use run::{Run, index_of};
+pub use stepper::{Stepped, Stepper};

@@ -1,0 +1,170 @@
+//! The driver: Algorithm 2.1 of Hirani, Wan & Wojtalewicz (Mannshardt's transition scheme).
+//!
+//! ```text
+//! segment in the present mode → event at (t̂*, x̂*) → next mode → go on
+//! ```
+//!
+//! The mode is explicit state. It is never inferred again from the sign of g after a transition, so
+//! that x̂* belongs to the mode entered whatever rounding did, and the located point never fires
+//! again. Names are added to errors here; methods know none.
+
+use super::accumulation::Accumulation;
+use super::conditions::{condition, condition_error};
+use super::next::enter;
+use super::segment::{InMode, Segment};
+use super::start::Start;
+use crate::arithmetic::{State, Time};
+use crate::contract::{System, Vector};
+use crate::error::Error;
+use crate::method::{Active, Cursor, Ended, Failure, Method, Observed, Silent, Statistics};
+use crate::output::{End, Observer, Point, Transition};
+
+/// An integration under way.
+#[derive(Clone, Debug)]
+pub(crate) struct Run<Sys: System<N>, Met: Method, const N: usize> {
+    pub(crate) cursor: Cursor<N>,
+    pub(crate) region: Sys::Region,
+    pub(crate) memory: Met::Memory<N>,
+    pub(crate) statistics: Statistics,
+    pub(crate) accumulation: Accumulation,
+}
+
+impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
+    /// At the start.
+    pub(crate) fn new(
+        method: &Met,
+        (t0, x0): (f64, Vector<f64, N>),
+        start: Start<Sys::Region>,
+        t_end: f64,
+    ) -> Self {
+        let (time, state) = (Time::new(t0), State::new(x0));
+        let active = Active::new(start.interface);
+        Self {
+            cursor: Cursor::new(time, state, index_of::<Sys, N>(start.region), active),
+            region: start.region,
+            memory: method.memory(t0, t_end),
+            statistics: Statistics::default(),
+            accumulation: Accumulation::new(time),
+        }
+    }
+
+    /// Where it is.
+    pub(crate) fn point(&self) -> Point<Sys::Region, N> {
+        Point {
+            t: self.cursor.time.value,
+            time: self.cursor.time,
+            x: self.cursor.state.rounded(),
+            region: self.region,
+        }
+    }
+
+    /// Where it is, with what was done.
+    pub(crate) fn end(&self) -> End<Sys::Region, N> {
+        End {
+            point: self.point(),
+            remainder: self.cursor.state.remainder,
+            statistics: self.statistics,
+        }
+    }
+
+    /// Segment, event, next mode, until the end time or the observer's wish.
+    pub(crate) fn run_until<Obs: Observer<Sys::Region, N>>(
+        &mut self,
+        system: &Sys,
+        method: &Met,
+        until: f64,
+        observer: &mut Obs,
+    ) -> Result<(), Error> {
+        loop {
+            let ended = self.segment(system, method, until, observer)?;
+            let Ended::AtGuard { guard, rate } = ended else {
+                return Ok(());
+            };
+            if observer.point(&self.point()).is_break() {
+                return Ok(());
+            }
+            let transition = self.next_mode(system, guard, rate)?;
+            if observer.transition(&transition).is_break()
+                || observer.point(&self.point()).is_break()
+            {
+                return Ok(());
+            }
+        }
+    }
+
+    /// A segment in the present mode.
+    #[inline(always)]
+    pub(crate) fn segment<Obs: Observer<Sys::Region, N>>(
+        &mut self,
+        system: &Sys,
+        method: &Met,
+        until: f64,
+        observer: &mut Obs,
+    ) -> Result<Ended, Error> {
+        let region = self.region;
+        let Self {
+            cursor,
+            memory,
+            statistics,
+            ..
+        } = self;
+        let ended = if const { Obs::LISTENS } {
+            let mut listener = InMode { region, observer };
+            let segment = Segment {
+                method,
+                cursor,
+                until,
+                memory,
+                sink: &mut Observed::new(&mut listener, statistics),
+            };
+            system.visit(region, segment)
+        } else {
+            let segment = Segment {
+                method,
+                cursor,
+                until,
+                memory,
+                sink: &mut Silent { statistics },
+            };
+            system.visit(region, segment)
+        };
+        match ended {
+            Ok(ended) => Ok(ended),
+            Err(failure) => Err(self.error(failure)),
+        }
+    }
+
+    /// The transition at a guard that was met: into the next mode.
+    pub(crate) fn next_mode(
+        &mut self,
+        system: &Sys,
+        guard: usize,
+        rate: f64,
+    ) -> Result<Transition<Sys::Region, N>, Error> {
+        let Cursor { time, state, .. } = &self.cursor;
+        if let Some(condition) = condition::<Sys, N>(guard) {
+            let region = self.region;
+            return Err(condition_error::<Sys, N>(
+                condition, region, time.value, &state.x,
+            ));
+        }
+        (self.accumulation).count::<Sys, N>((guard, self.region), *time, &state.x)?;
+        let transition = enter(system, (self.region, rate), guard, *time, state)?;
+        self.statistics.transitions += 1;
+        self.region = transition.to;
+        self.cursor.enter(index_of::<Sys, N>(transition.to), guard);
+        Ok(transition)
+    }
+
+    /// What stopped a method, with names.
+    #[cold]
+    fn error(&self, failure: Failure) -> Error {
+        failure.named::<Sys, N>(&self.cursor, self.region)
+    }
+}
+
+/// The number of a region.
+pub(crate) fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
+    let is_it = |candidate: &Sys::Region| *candidate == region;
+    Sys::REGIONS.iter().position(is_it).unwrap_or_default()
+}

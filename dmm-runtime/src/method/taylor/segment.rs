@@ -1,0 +1,70 @@
+//! What a segment of Taylor steps works with, and outputs along the series of a step.
+
+use super::{Memory, Taylor};
+use crate::arithmetic::{State, Time};
+use crate::contract::Dynamics;
+use crate::expansion::jet::Jet;
+use crate::level::Level;
+use crate::method::{Cursor, Sink};
+use crate::series::Unroll;
+
+/// A segment under way.
+pub(super) struct Segment<'a, S, const N: usize> {
+    pub(super) method: &'a Taylor,
+    pub(super) cursor: &'a mut Cursor<N>,
+    pub(super) until: f64,
+    pub(super) memory: &'a mut Memory,
+    pub(super) sink: &'a mut S,
+}
+
+impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
+    /// Serves the output times of a step over `tau` that ends at `end`.
+    pub(super) fn outputs_along<
+        const P: usize,
+        const M: usize,
+        D: Dynamics<f64, N, M>,
+        U: Unroll,
+    >(
+        &mut self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        jet: &Jet<D, U, N, M, P>,
+        here: &Here<N>,
+        (tau, end): (f64, Time),
+    ) {
+        let corrects = self.method.corrects_level();
+        while let Some(t) = self.sink.next_output()
+            && t <= end.value
+        {
+            let time = Time::new(t);
+            let elapsed = time.since(here.time).max(0.0).min(tau);
+            let state = here.state.after(&jet.increment(elapsed));
+            let state = level.reached(dynamics, time, state, &(state.x - here.state.x), corrects);
+            self.sink.output(t, state.rounded());
+        }
+    }
+}
+
+/// Where the steps are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Here<const N: usize> {
+    pub(super) time: Time,
+    pub(super) state: State<N>,
+    /// The size of the step before, or 0.
+    pub(super) before: f64,
+    /// How many there were.
+    pub(super) steps: u64,
+}
+
+impl<const N: usize> Here<N> {
+    /// Where the cursor of a segment is.
+    #[inline(always)]
+    pub(super) fn of<S>(segment: &Segment<'_, S, N>) -> Self {
+        Self {
+            time: segment.cursor.time,
+            state: segment.cursor.state,
+            before: segment.memory.step,
+            steps: 0,
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Taylor steps: the series of the solution at each point, over as much of its radius of
+//! convergence as the tolerance allows.
+
+use super::ahead::{Ahead, Part};
+use super::crossing::Found;
+use super::segment::{Here, Segment};
+use crate::arithmetic::Time;
+use crate::arithmetic::linear::is_finite;
+use crate::contract::Dynamics;
+use crate::expansion::jet::Jet;
+use crate::expansion::radius::OtherUnit;
+use crate::level::Level;
+use crate::method::{Ended, Failure, FailureKind, Sink, StepFailure};
+use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
+
+/// Steps between adaptions of the level's correction to the size of the state.
+const RESCALING: u64 = 256;
+
+/// A segment with P coefficients, still to be chosen.
+pub(super) struct Choose<'a, D, S, const N: usize, const M: usize> {
+    pub(super) segment: Segment<'a, S, N>,
+    pub(super) dynamics: &'a D,
+}
+
+impl<D, S, const N: usize, const M: usize> Choice for Choose<'_, D, S, N, M>
+where
+    D: Dynamics<f64, N, M>,
+    S: Sink<N>,
+{
+    type Output = Result<Ended, Failure>;
+
+    fn with<const P: usize>(self) -> Self::Output {
+        let Self {
+            mut segment,
+            dynamics,
+        } = self;
+        if segment.memory.unit == 1.0 {
+            segment.expand::<P, M, D, D::Unrolled>(dynamics)
+        } else {
+            segment.expand_in_units(dynamics)
+        }
+    }
+}
+
+impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
+    /// Steps with P coefficients, until a guard is met or the end time is reached.
+    pub(super) fn expand<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+        &mut self,
+        dynamics: &D,
+    ) -> Result<Ended, Failure> {
+        let mut here = Here::of(self);
+        let mut jet = Jet::<D, U, N, M, P>::new(self.method.order(), self.memory.unit);
+        jet.expand(dynamics, here.time.value, &here.state.x);
+        // after the chain of recurrences, which leaves the processor time for it
+        let kept = self.cursor.level.as_deref();
+        let level = Level::enter(dynamics, here.time, &here.state, kept);
+        let end = self.steps::<P, M, D, U>(dynamics, level, &mut jet, &mut here);
+        self.cursor.time = here.time;
+        self.cursor.state = here.state;
+        self.memory.step = here.before;
+        self.memory.unit = jet.unit();
+        self.sink.statistics().steps += here.steps;
+        match end {
+            Next::Finished => Ok(Ended::Finished),
+            Next::Stopped(level) => {
+                self.cursor.level = Some(level.kept());
+                self.cursor.active.clear();
+                Ok(Ended::Stopped)
+            }
+            Next::Crossing { found, tau, level } => {
+                self.arrive::<P, M, D, U>(dynamics, &level, &jet, &found, tau)
+            }
+            Next::Not(tau) => Err(StepFailure::NotFinite.over(tau)),
+            Next::Unknown { guard, tau } => Err(Failure {
+                kind: FailureKind::Undecided { guard },
+                step_size: tau,
+            }),
+            Next::Lost(OtherUnit(unit)) => {
+                self.memory.unit = unit;
+                if here.steps > 0 {
+                    self.cursor.active.clear();
+                }
+                self.expand_in_units(dynamics)
+            }
+        }
+    }
+
+    /// The same in any unit of time, not by straight-line code.
+    #[cold]
+    pub(super) fn expand_in_units<const M: usize, D: Dynamics<f64, N, M>>(
+        &mut self,
+        dynamics: &D,
+    ) -> Result<Ended, Failure> {
+        self.expand::<MOST_COEFFICIENTS, M, D, Rolled>(dynamics)
+    }
+
+    /// The steps, from local variables to local variables; `jet` is that of the start.
+    #[inline(always)]
+    fn steps<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+        &mut self,
+        dynamics: &D,
+        mut level: Level<N, M>,
+        jet: &mut Jet<D, U, N, M, P>,
+        here: &mut Here<N>,
+    ) -> Next<N, M> {
+        let end = self.until;
+        let fraction = self.memory.fraction;
+        let corrects = self.method.corrects_level();
+        loop {
+            let remaining = (end - here.time.value) - here.time.remainder;
+            if remaining <= 0.0 {
+                return Next::Finished;
+            }
+            let wanted = match jet.step(dynamics, here.time.value, fraction, here.before) {
+                Ok(wanted) => wanted,
+                Err(other) => return Next::Lost(other),
+            };
+            let mut part = Part::WHOLE;
+            let (tau, time, mut state) = loop {
+                let size = part.share * wanted;
+                let Some((tau, time)) = step_to::<N, M, D>(here.time, size, (remaining, end))
+                else {
+                    return Next::Not(size);
+                };
+                let state = here.state.after(&jet.increment(tau));
+                if D::sides().is_empty() {
+                    break (tau, time, state);
+                }
+                let end = (tau, time, &state);
+                match self.look_ahead::<P, M, D, U>(dynamics, jet, here, end, part) {
+                    Ahead::Free => break (tau, time, state),
+                    Ahead::Crossing(found) => return Next::Crossing { found, tau, level },
+                    Ahead::Undecided(shorter) => part = shorter,
+                    Ahead::Unknown(guard) => return Next::Unknown { guard, tau },
+                }
+            };
+            if self.sink.next_output().is_some() {
+                self.outputs_along::<P, M, D, U>(dynamics, &level, jet, here, (tau, time));
+            }
+            state = level.reached(dynamics, time, state, &(state.x - here.state.x), corrects);
+            if !is_finite(&state.x) {
+                return Next::Not(tau);
+            }
+            here.state = state;
+            here.time = time;
+            here.before = wanted;
+            here.steps += 1;
+            if here.steps.is_multiple_of(RESCALING) {
+                level.rescale(dynamics, here.time.value, &here.state);
+            }
+            if self.sink.point(here.time, &here.state).is_break() {
+                return Next::Stopped(level);
+            }
+            jet.expand(dynamics, here.time.value, &here.state.x);
+        }
+    }
+}
+
+/// What comes after some steps.
+enum Next<const N: usize, const M: usize> {
+    /// Nothing: the end time is reached.
+    Finished,
+    /// Nothing more, by the sink's wish.
+    Stopped(Level<N, M>),
+    /// A step over `tau` in which a guard is met.
+    Crossing {
+        found: Found,
+        tau: f64,
+        level: Level<N, M>,
+    },
+    /// A step of this size that cannot be made.
+    Not(f64),
+    /// A step over `tau` of which it cannot be decided whether it meets a guard.
+    Unknown { guard: usize, tau: f64 },
+    /// Steps with coefficients in another unit: these are lost in the unit 1.
+    Lost(OtherUnit),
+}
+
+/// The size and the end of a step of about `wanted`; nothing if it is none.
+#[inline(always)]
+fn step_to<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+    start: Time,
+    wanted: f64,
+    (remaining, end): (f64, f64),
+) -> Option<(f64, Time)> {
+    if wanted >= remaining {
+        let end = Time::new(end);
+        return Some((end.since(start), end));
+    }
+    let (tau, time) = match D::AUTONOMOUS {
+        true => (wanted, start.after(wanted)),
+        // the formulas are evaluated at a double
+        false => {
+            let time = Time::new(start.value + wanted);
+            (time.since(start), time)
+        }
+    };
+    (tau > 0.0 && time != start).then_some((tau, time))
+}

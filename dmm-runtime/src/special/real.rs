@@ -1,0 +1,51 @@
+//! Doubles as scalars.
+
+use crate::arithmetic::Scalar;
+use crate::special;
+
+/// Implements functions of [`Scalar`] by those of the same name in a module or of a type.
+macro_rules! forward {
+    ($module:ident: $($function:ident($($other:ident)?))*) => {$(
+        #[inline]
+        fn $function(self $(, $other: Self)?) -> Self {
+            $module::$function(self $(, $other)?)
+        }
+    )*};
+}
+
+impl Scalar for f64 {
+    const ROUNDING: Self = f64::EPSILON / 2.0;
+
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn fused(self, b: Self, c: Self) -> Self {
+        if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+            self.mul_add(b, c)
+        } else {
+            self * b + c
+        }
+    }
+
+    #[inline]
+    fn powi(self, n: i32) -> Self {
+        f64::powi(self, n)
+    }
+
+    forward! {
+        f64: abs() sqrt() exp() ln() sin() cos() tan() sinh() cosh() tanh() asin() acos() atan()
+            powf(v)
+    }
+    forward! {
+        special: exp_product(b) sinc() sinc_prime() sinhc() sinhc_prime() ln_dd(b) ln_dd_prime(b)
+            asin_dd(b) asin_dd_prime(b) atan_dd(b) atan_dd_prime(b)
+    }
+}

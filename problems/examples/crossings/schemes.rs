@@ -1,0 +1,244 @@
+//! The schemes that are tried, and runs by them.
+
+use std::ops::ControlFlow;
+
+use dmm_runtime::{
+    Best, Composed, Ensemble, Error, Integrator, Member, Method, Observer, Point, Symmetric,
+    System, Taylor, Transition, Vector,
+};
+
+use crate::families::Family;
+
+/// A scheme.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Taylor,
+    Best,
+    Lanes,
+    Symmetric,
+    SymmetricAdaptive,
+    /// Of an order.
+    Composed(usize),
+    ComposedAdaptive(usize),
+}
+
+/// A scheme at a setting.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting {
+    pub(super) name: &'static str,
+    kind: Kind,
+    /// The tolerance, or the step size in units of the time in which states change.
+    value: f64,
+    /// The error that may be expected of it where errors do not grow, relative to the size of
+    /// states: what is less counts as that, what is more is wrong.
+    pub(super) errors: [f64; 2],
+}
+
+const fn setting(name: &'static str, kind: Kind, value: f64, errors: [f64; 2]) -> Setting {
+    Setting {
+        name,
+        kind,
+        value,
+        errors,
+    }
+}
+
+/// All of them. A scheme of order p makes errors of the order of τᵖ times derivatives, of
+/// fields that are stiffer than the unit by factors of 2 to 4; the steps by tolerance add up the
+/// errors of some hundreds of them.
+pub(super) const SETTINGS: [Setting; 13] = [
+    setting("Taylor 1e-12", Kind::Taylor, 1e-12, [1e-12, 1e-9]),
+    setting("Best 1e-12", Kind::Best, 1e-12, [1e-12, 1e-9]),
+    setting("lanes 1e-12", Kind::Lanes, 1e-12, [1e-12, 1e-9]),
+    setting("lanes 1e-6", Kind::Lanes, 1e-6, [1e-6, 1e-3]),
+    setting("Taylor 1e-6", Kind::Taylor, 1e-6, [1e-6, 1e-3]),
+    setting("Symmetric", Kind::Symmetric, 0.01, [1e-5, 3e-2]),
+    setting(
+        "Symmetric 1e-5",
+        Kind::SymmetricAdaptive,
+        1e-5,
+        [1e-5, 3e-2],
+    ),
+    setting("Composed<4>", Kind::Composed(4), 0.02, [1e-8, 1e-3]),
+    setting(
+        "Composed<4> 1e-7",
+        Kind::ComposedAdaptive(4),
+        1e-7,
+        [1e-7, 1e-3],
+    ),
+    setting("Composed<6>", Kind::Composed(6), 0.05, [1e-8, 1e-3]),
+    setting(
+        "Composed<6> 1e-9",
+        Kind::ComposedAdaptive(6),
+        1e-9,
+        [1e-9, 1e-4],
+    ),
+    setting("Composed<8>", Kind::Composed(8), 0.1, [1e-8, 1e-3]),
+    setting(
+        "Composed<8> 1e-10",
+        Kind::ComposedAdaptive(8),
+        1e-10,
+        [1e-10, 1e-5],
+    ),
+];
+
+/// Every system is run with the first of [`SETTINGS`]; then come those of the lanes; the others
+/// take turns.
+const ALWAYS: usize = 2;
+const LANES: std::ops::Range<usize> = 2..4;
+const TURNS: usize = 3;
+
+impl Setting {
+    /// Whether a family of systems is run with it: each has compositions of one order, because
+    /// every order is compiled for every system.
+    pub(super) fn is_for(&self, order: usize) -> bool {
+        match self.kind {
+            Kind::Composed(own) | Kind::ComposedAdaptive(own) => own == order,
+            _ => true,
+        }
+    }
+}
+
+/// The settings that the system `index` of a family is run with one by one.
+pub(super) fn in_turn(order: usize, index: usize) -> impl Iterator<Item = usize> {
+    let others = (LANES.end..SETTINGS.len()).filter(move |k| SETTINGS[*k].is_for(order));
+    let first = index * TURNS % others.clone().count();
+    let turns = others.cycle().skip(first).take(TURNS);
+    (0..ALWAYS).chain(turns)
+}
+
+/// The setting that the group `index` is run with in lanes.
+pub(super) fn of_lanes(index: usize) -> usize {
+    LANES.start + index % LANES.len()
+}
+
+/// A crossing that a run has told of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Told {
+    pub(super) t: f64,
+    pub(super) interface: usize,
+    /// Whether g > 0 afterwards.
+    pub(super) to_positive: bool,
+}
+
+/// What a run has told.
+#[derive(Debug)]
+pub(super) struct Run {
+    pub(super) points: Vec<(f64, Vec<f64>)>,
+    pub(super) crossings: Vec<Told>,
+    /// Nothing if it came to its end.
+    pub(super) error: Option<Error>,
+}
+
+/// Listens to a run.
+struct Listener<Sys: System<N>, const N: usize> {
+    points: Vec<(f64, Vector<f64, N>)>,
+    crossings: Vec<Told>,
+    system: std::marker::PhantomData<Sys>,
+}
+
+/// A run that would make more crossings is endless.
+const MOST_CROSSINGS: usize = 5000;
+
+impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Listener<Sys, N> {
+    fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
+        self.points.push((point.t, point.x));
+        ControlFlow::Continue(())
+    }
+
+    fn transition(&mut self, transition: &Transition<Sys::Region, N>) -> ControlFlow<()> {
+        let side = Sys::sides(transition.to).get(transition.interface);
+        let told = Told {
+            t: transition.t,
+            interface: transition.interface,
+            to_positive: side.is_some_and(|side| side.sign() > 0.0),
+        };
+        self.crossings.push(told);
+        if self.crossings.len() < MOST_CROSSINGS {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    }
+}
+
+fn observe<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    scheme: impl Method,
+    initial: [f64; N],
+    t_end: f64,
+) -> Run {
+    let mut listener = Listener::<Sys, N> {
+        points: Vec::new(),
+        crossings: Vec::new(),
+        system: std::marker::PhantomData,
+    };
+    let result = Integrator::new(system, scheme)
+        .initial(0.0, initial)
+        .observe_until(t_end, &mut listener);
+    let points = listener.points.into_iter();
+    Run {
+        points: points.map(|(t, x)| (t, x.as_slice().to_vec())).collect(),
+        crossings: listener.crossings,
+        error: result.err().map(Error::from),
+    }
+}
+
+/// Makes a run of a system of a family; `rate` is the inverse of the time in which states
+/// change.
+pub(super) fn run<Sys: Family<N>, const N: usize>(
+    setting: &Setting,
+    system: &Sys,
+    rate: f64,
+    initial: [f64; N],
+    t_end: f64,
+) -> Run {
+    let value = setting.value;
+    let tau = value / rate;
+    macro_rules! by {
+        ($scheme:expr) => {
+            observe(system, $scheme, initial, t_end)
+        };
+    }
+    match setting.kind {
+        Kind::Taylor | Kind::Lanes => by!(Taylor::tolerance(value)),
+        Kind::Best => by!(Best::tolerance(value)),
+        Kind::Symmetric => by!(Symmetric::step_size(tau)),
+        Kind::SymmetricAdaptive => by!(Symmetric::tolerance(value)),
+        // what is not of the family's order is not compiled
+        Kind::Composed(_) if const { Sys::ORDER == 4 } => by!(Composed::<4>::step_size(tau)),
+        Kind::Composed(_) if const { Sys::ORDER == 6 } => by!(Composed::<6>::step_size(tau)),
+        Kind::Composed(_) => by!(Composed::<8>::step_size(tau)),
+        Kind::ComposedAdaptive(_) if const { Sys::ORDER == 4 } => {
+            by!(Composed::<4>::tolerance(value))
+        }
+        Kind::ComposedAdaptive(_) if const { Sys::ORDER == 6 } => {
+            by!(Composed::<6>::tolerance(value))
+        }
+        Kind::ComposedAdaptive(_) => by!(Composed::<8>::tolerance(value)),
+    }
+}
+
+/// The end of a run in lanes, and how many crossings it made.
+pub(super) type End = Result<(Vec<f64>, u64), Error>;
+
+/// Makes runs of systems in lanes.
+pub(super) fn run_in_lanes<Sys: System<N>, const N: usize>(
+    setting: &Setting,
+    members: impl IntoIterator<Item = (Sys, [f64; N])>,
+    t_end: f64,
+) -> Vec<End> {
+    let members = members.into_iter();
+    let members: Vec<_> = members
+        .map(|(system, initial)| Member::new(system, 0.0, initial))
+        .collect();
+    let ensemble = Ensemble::new(Taylor::tolerance(setting.value)).threads(1);
+    let outcomes = ensemble.collect_until(t_end, members).into_iter();
+    outcomes
+        .map(|outcome| {
+            let end = outcome.map_err(Error::from)?;
+            let x = end.point.x.as_slice().to_vec();
+            Ok((x, end.statistics.transitions))
+        })
+        .collect()
+}
