@@ -103,6 +103,18 @@ impl<'a, const N: usize> Observed<'a, N> {
     }
 }
 
+/// Tells of a point. The state is a copy, so that nothing that steps work with is lent and has to be
+/// kept in memory where nothing is told.
+#[cold]
+#[inline(never)]
+fn tell<const N: usize>(
+    listener: &mut dyn Listener<N>,
+    time: Time,
+    state: State<N>,
+) -> ControlFlow<()> {
+    listener.point(time, &state)
+}
+
 impl<const N: usize> Sink<N> for Observed<'_, N> {
     const LISTENS: bool = true;
 
@@ -111,10 +123,10 @@ impl<const N: usize> Sink<N> for Observed<'_, N> {
         self.statistics
     }
 
-    #[inline]
+    #[inline(always)]
     fn point(&mut self, time: Time, state: &State<N>) -> ControlFlow<()> {
         match &mut self.listener {
-            Some(listener) => listener.point(time, state),
+            Some(listener) => tell(*listener, time, *state),
             None => ControlFlow::Continue(()),
         }
     }

@@ -19,6 +19,8 @@ pub(super) struct Segment<'a, S, const N: usize> {
 
 impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     /// Serves the output times of a step over `tau` that ends at `end`.
+    #[cold]
+    #[inline(never)]
     pub(super) fn outputs_along<
         const P: usize,
         const M: usize,
