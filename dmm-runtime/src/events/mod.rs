@@ -13,8 +13,10 @@ pub(crate) mod ends;
 pub(crate) mod interval;
 pub(crate) mod path;
 pub(crate) mod search;
+mod series;
 pub(crate) mod switching;
 
 pub(crate) use path::Path;
 pub(crate) use search::{Met, Search};
+pub(crate) use series::{Root, Series};
 pub(crate) use switching::{Enclosed, Switching};

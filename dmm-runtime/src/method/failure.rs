@@ -9,6 +9,26 @@ pub struct Failure {
     pub step_size: f64,
 }
 
+impl Failure {
+    /// A guard is met in a step, at a point that was not found.
+    #[cold]
+    pub(crate) fn not_located(guard: usize, step_size: f64) -> Self {
+        Self {
+            kind: FailureKind::NotLocated { guard },
+            step_size,
+        }
+    }
+
+    /// Whether a guard is met in a step cannot be decided.
+    #[cold]
+    pub(crate) fn undecided(guard: usize, step_size: f64) -> Self {
+        Self {
+            kind: FailureKind::Undecided { guard },
+            step_size,
+        }
+    }
+}
+
 /// Why a step could not be made.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum FailureKind {

@@ -8,7 +8,7 @@ use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::level::Level;
-use crate::method::{Ended, Failure, FailureKind, Sink};
+use crate::method::{Ended, Failure, Sink};
 
 /// Newton iterations of a crossing.
 const MOST_ITERATIONS: u32 = 20;
@@ -47,10 +47,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             rate = slide(dynamics, guard, &mut time, &mut state);
         }
         if !is_finite(&state.x) || !rate.is_finite() {
-            return Err(Failure {
-                kind: FailureKind::NotLocated { guard },
-                step_size: tau,
-            });
+            return Err(Failure::not_located(guard, tau));
         }
         self.outputs(sizes, time);
         self.cursor.state = state;

@@ -15,19 +15,18 @@ use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::events::cubic::{self, Bounds, Cubic, Reading};
+use crate::events::switching::NOISE;
+use crate::events::{Root, Series};
 use crate::expansion::jet::Jet;
-use crate::expansion::polynomial::{Roots, first_root, root};
 use crate::expansion::radius::unit_for;
 use crate::level::Level;
-use crate::method::{Ended, Failure, FailureKind, Sink, StepFailure};
+use crate::method::{Ended, Failure, Sink, StepFailure};
 use crate::series::{MOST_COEFFICIENTS, Rolled};
 
 /// Steps between looks at the level.
 const INTERVAL: u64 = 32;
 /// After so many steps of a size the next one is tried.
 const PATIENCE: u32 = 4;
-/// g this many rounding errors of its terms away from zero is not distinguished from it.
-const NOISE: f64 = 16.0;
 /// g and dg/dt of every interface that bounds the region.
 type Readings<D, const N: usize, const M: usize> =
     <<D as Dynamics<f64, N, M>>::Guards as Guards<f64, N>>::Each<Reading>;
@@ -148,10 +147,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 }
                 Course::Lost => return Err(StepFailure::NotFinite.over(trial.tau)),
                 Course::Unknown(guard) => {
-                    return Err(Failure {
-                        kind: FailureKind::Undecided { guard },
-                        step_size: trial.tau,
-                    });
+                    return Err(Failure::undecided(guard, trial.tau));
                 }
             };
             let time = if trial.tau < remaining {
@@ -281,37 +277,27 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let mut horizon = jet.in_units(tau);
         let mut first = Course::Free { room: false };
         for (i, &(guard, side)) in D::sides().iter().enumerate() {
-            let series = jet.switching(guard).map(|c| side.sign() * c);
-            if !series.iter().all(|c| c.is_finite()) {
-                return if jet.coefficients().iter().flatten().all(|c| c.is_finite()) {
+            let coefficients = jet.switching(guard).map(|c| side.sign() * c);
+            let x = &self.cursor.state.x;
+            let size = dynamics.guards().switching_size(guard, t, x);
+            let is_active = self.cursor.active.contains(guard);
+            let Some(series) = Series::new(coefficients, size, is_active, jet.in_units(tau)) else {
+                let is_finite = jet.coefficients().iter().flatten().all(|c| c.is_finite());
+                return if is_finite {
                     Course::Unknown(guard)
                 } else {
                     Course::Lost
                 };
-            }
-            let size = dynamics
-                .guards()
-                .switching_size(guard, t, &self.cursor.state.x);
-            let noise = NOISE * f64::ROUNDING * size;
-            let on_it =
-                self.cursor.active.contains(guard) || (series[0] <= noise && series[1] > 0.0);
-            // on the interface zero is a root, which is divided off
-            let (series, noise) = match on_it {
-                true => (&series[1..], noise / jet.in_units(tau)),
-                false => (&series[..], noise),
             };
-            let Roots {
-                first: found,
-                touches,
-            } = first_root(series, horizon, noise);
+            let (found, touches) = series.first_root(horizon);
             self.sink.statistics().grazes += u64::from(touches);
-            if let Some((lower, upper)) = found {
-                horizon = root(series, lower, upper);
+            if let Some(Root { place, bracket }) = found {
+                horizon = place;
                 first = Course::Crossing(Found {
                     side: i,
-                    elapsed: horizon * unit,
+                    elapsed: place * unit,
                     precise: true,
-                    bracket: (lower * unit, upper * unit),
+                    bracket: (bracket.0 * unit, bracket.1 * unit),
                 });
             }
         }

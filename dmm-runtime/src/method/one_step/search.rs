@@ -13,7 +13,7 @@ use crate::events::ends::{Decay, Ends};
 use crate::events::{Enclosed, Met, Path, Search, Switching};
 use crate::expansion::jet::FIRST;
 use crate::level::Level;
-use crate::method::{Active, Ended, Failure, FailureKind, Sink, Statistics};
+use crate::method::{Active, Ended, Failure, Sink, Statistics};
 
 /// A watch for each guard of a mode.
 pub(super) type Watches<F, const N: usize, const M: usize> =
@@ -262,12 +262,7 @@ where
             crossing.upper = (upper * unit).min(dense.tau);
             Ok(Some(crossing))
         }
-        Met::Undecided(_) => Err(Failure {
-            kind: FailureKind::Undecided {
-                guard: crossing.guard,
-            },
-            step_size: dense.tau,
-        }),
+        Met::Undecided(_) => Err(Failure::undecided(crossing.guard, dense.tau)),
     }
 }
 
@@ -293,7 +288,7 @@ fn locate_in<Map: OneStep, Loc: Locator, F: Dynamics<f64, N, M>, const N: usize,
             elapsed: 0.0,
             increment: Vector::zeros(),
         })),
-        None => Err(not_located(crossing.guard, tau)),
+        None => Err(Failure::not_located(crossing.guard, tau)),
     }
 }
 
@@ -321,13 +316,4 @@ fn by_ends<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         decay: dense.decay,
     };
     ends.course(&c, (sign * value, sign * slope), 1.0, is_active)
-}
-
-/// The failure of a step in which a guard is met, at a point that was not found.
-#[cold]
-fn not_located(guard: usize, step_size: f64) -> Failure {
-    Failure {
-        kind: FailureKind::NotLocated { guard },
-        step_size,
-    }
 }

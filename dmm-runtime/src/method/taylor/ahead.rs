@@ -4,14 +4,12 @@
 use super::crossing::Found;
 use super::segment::{Here, Segment};
 use crate::arithmetic::linear::{dot, is_finite};
-use crate::arithmetic::{Scalar, State, Time};
+use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Guards};
 use crate::events::cubic::Course;
 use crate::events::ends::Ends;
-use crate::events::switching::NOISE;
-use crate::events::{Enclosed, Met, Path, Search};
+use crate::events::{Enclosed, Met, Path, Root, Search, Series};
 use crate::expansion::jet::Jet;
-use crate::expansion::polynomial::{Roots, dips, first_root, root};
 use crate::method::Sink;
 use crate::series::Unroll;
 
@@ -148,37 +146,27 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let mut horizon = tau;
         for &(guard, side) in D::sides() {
             let sign = side.sign();
-            let series = jet.switching(guard).map(|c| sign * c);
-            if !series.iter().all(|c| c.is_finite()) {
-                return Ahead::Unknown(guard);
-            }
+            let coefficients = jet.switching(guard).map(|c| sign * c);
             let size = dynamics.guards().switching_size(guard, t, x);
-            let noise = NOISE * f64::ROUNDING * size;
-            let on_it = self.is_active(here, guard) || (series[0] <= noise && series[1] > 0.0);
-            // on the interface zero is a root, which is divided off
-            let (series, part) = match on_it {
-                true => (&series[1..], 1.0 / tau),
-                false => (&series[..], 1.0),
+            let is_active = self.is_active(here, guard);
+            let Some(series) = Series::new(coefficients, size, is_active, tau) else {
+                return Ahead::Unknown(guard);
             };
-            let (noise, band) = (noise * part, band * size * part);
-            if band > noise && dips(series, horizon, band) {
+            if series.dips(horizon, band) {
                 return Ahead::Undecided(Part {
                     share: self.memory.finest,
                     is_finest: true,
                 });
             }
-            let Roots {
-                first: found,
-                touches,
-            } = first_root(series, horizon, noise);
+            let (found, touches) = series.first_root(horizon);
             self.sink.statistics().grazes += u64::from(touches);
-            if let Some((lower, upper)) = found {
-                horizon = root(series, lower, upper);
+            if let Some(Root { place, bracket }) = found {
+                horizon = place;
                 first = Some(Found {
                     guard,
                     sign,
-                    elapsed: horizon * jet.unit(),
-                    bracket: (lower * jet.unit(), upper * jet.unit()),
+                    elapsed: place * jet.unit(),
+                    bracket: (bracket.0 * jet.unit(), bracket.1 * jet.unit()),
                     start: None,
                 });
             }

@@ -14,7 +14,7 @@ use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::expansion::jet::Jet;
 use crate::level::{Level, Weights, switching_in_pairs};
-use crate::method::{Ended, Failure, FailureKind, Sink};
+use crate::method::{Ended, Failure, Sink};
 use crate::series::Unroll;
 
 /// Corrections of a crossing next to it.
@@ -102,10 +102,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             .locate::<P, M, D, U>(dynamics, level, jet, found, tau)
             .or_else(|| self.about_condition::<P, M, D, U>(jet, found));
         let Some((time, state, rate)) = located else {
-            return Err(Failure {
-                kind: FailureKind::NotLocated { guard },
-                step_size: tau,
-            });
+            return Err(Failure::not_located(guard, tau));
         };
         let elapsed = time.since(self.cursor.time).clamp(0.0, tau);
         let here = Here::of(self);

@@ -10,7 +10,7 @@ use crate::contract::Dynamics;
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::OtherUnit;
 use crate::level::Level;
-use crate::method::{Ended, Failure, FailureKind, Sink, StepFailure};
+use crate::method::{Ended, Failure, Sink, StepFailure};
 use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
 
 /// Steps between adaptions of the level's correction to the size of the state.
@@ -71,10 +71,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 self.arrive::<P, M, D, U>(dynamics, &level, &jet, &found, tau)
             }
             Next::Not(tau) => Err(StepFailure::NotFinite.over(tau)),
-            Next::Unknown { guard, tau } => Err(Failure {
-                kind: FailureKind::Undecided { guard },
-                step_size: tau,
-            }),
+            Next::Unknown { guard, tau } => Err(Failure::undecided(guard, tau)),
             Next::Lost(OtherUnit(unit)) => {
                 self.memory.unit = unit;
                 if here.steps > 0 {
