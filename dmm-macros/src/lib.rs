@@ -96,7 +96,7 @@ use proc_macro::TokenStream;
 ///
 /// let ring = Ring { k: 2.0, ..Default::default() };
 /// assert_eq!(ring.m, [1.0, 2.0, 4.0]);
-/// assert_eq!(Ring::STATES, ["q[0]", "q[1]", "q[2]", "p[0]", "p[1]", "p[2]"]);
+/// assert_eq!(ring.metadata().states, ["q[0]", "q[1]", "q[2]", "p[0]", "p[1]", "p[2]"]);
 ///
 /// let solution = Integrator::new(&ring, Symmetric::step_size(0.1))
 ///     .initial(0.0, [1.0, 0.0, 0.0, 0.0, 1.0, -1.0])
@@ -173,8 +173,8 @@ use proc_macro::TokenStream;
 ///     }
 /// }
 ///
-/// for region in [ShellRegion::Inside, ShellRegion::Outside] {
-///     assert_eq!(Shell::conserved_names(region), ["angular_momentum", "energy"]);
+/// for region in Shell::default().metadata().regions {
+///     assert_eq!(region.conserved, ["angular_momentum", "energy"]);
 /// }
 /// ```
 ///
@@ -230,8 +230,8 @@ use proc_macro::TokenStream;
 ///     panic!("{}", stopped.error());
 /// };
 /// assert_eq!((*condition, *quantity), ("x ≠ 0", "angle"));
-/// assert_eq!(Rotation::CONDITIONS.len(), 1);
-/// assert!(Half::CONDITIONS.is_empty());
+/// assert_eq!(Rotation {}.metadata().conditions.len(), 1);
+/// assert!(Half {}.metadata().conditions.is_empty());
 /// ```
 ///
 /// # What is emitted
@@ -239,7 +239,7 @@ use proc_macro::TokenStream;
 /// For `pub system Harmonic`: a struct `Harmonic` with a public field a parameter (`f64`, or
 /// `[f64; n]` for a group) and `Default`, an enumeration `HarmonicRegion` of its regions
 /// (`HarmonicRegion::Above`; `Everywhere` without interfaces), and the traits that the runtime's
-/// integrators use. The derived mathematics is the constant `System::LISTING`.
+/// integrators use. The derived mathematics is `System::listing`.
 ///
 #[doc = include_str!("../DIAGNOSTICS.md")]
 #[proc_macro]

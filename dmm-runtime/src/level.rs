@@ -65,6 +65,12 @@ impl<const N: usize> Weights<N> {
         }
     }
 
+    /// Σ wᵢ²
+    #[inline(always)]
+    pub(crate) fn sum(&self) -> f64 {
+        self.unit * self.squares.sum()
+    }
+
     /// wᵢ² Λᵢ
     #[inline(always)]
     fn times(&self, row: &Vector<f64, N>) -> Vector<f64, N> {
@@ -154,10 +160,23 @@ impl<const N: usize, const M: usize> Level<N, M> {
         state: &State<N>,
         weights: &Weights<N>,
     ) -> Vector<f64, N> {
+        let at = dynamics.multiplier(time.value, &state.x);
+        self.correction_by(dynamics, time, state, weights, &at)
+    }
+
+    /// The same by ψ and Λ at (t, x).
+    #[inline(always)]
+    pub(crate) fn correction_by<F: Dynamics<f64, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time,
+        state: &State<N>,
+        weights: &Weights<N>,
+        (psi, multiplier): &(Vector<f64, M>, Matrix<f64, M, N>),
+    ) -> Vector<f64, N> {
         if M == 0 {
             return Vector::zeros();
         }
-        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let little = self.scale * (Self::LITTLE * Self::LITTLE * weights.largest);
         if M == 1 {
             let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
@@ -168,16 +187,16 @@ impl<const N: usize, const M: usize> Level<N, M> {
             if square > little[0] {
                 return weighted * -(((psi[0] - self.reference[0]) + drift) * inverse);
             }
-            return self.gentle(dynamics, time, state, &multiplier, weights);
+            return self.gentle(dynamics, time, state, multiplier, weights);
         }
-        let (scaled, sizes) = weights.scaled(&multiplier);
+        let (scaled, sizes) = weights.scaled(multiplier);
         let projection = MinimalNorm::new(&scaled, &scaled);
         if projection.is_steep(&little) {
             let drift = multiplier * remainder(dynamics, time, state) - self.remainder;
             let residual = (psi - self.reference) + drift;
             return -projection.smallest(&residual).component_mul(&sizes);
         }
-        self.gentle(dynamics, time, state, &multiplier, weights)
+        self.gentle(dynamics, time, state, multiplier, weights)
     }
 
     /// The displacement where ψ has little slope, with the residual in pairs of doubles.
@@ -402,7 +421,7 @@ fn remainder<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
     time: Time,
     state: &State<N>,
 ) -> Vector<f64, N> {
-    if F::AUTONOMOUS || time.remainder == 0.0 {
+    if dynamics.is_autonomous() || time.remainder == 0.0 {
         return state.remainder;
     }
     state.remainder - dynamics.vector_field(time.value, &state.x) * time.remainder

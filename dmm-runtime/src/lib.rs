@@ -102,7 +102,8 @@ pub mod support;
 
 pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
 pub use contract::{
-    Condition, Dynamics, DynamicsVisitor, Guards, NoGuards, Side, Solvability, System,
+    Condition, Dynamics, DynamicsVisitor, Guards, Metadata, NoGuards, RegionMetadata, Side,
+    Solvability, System,
 };
 pub use dmm_macros::pws;
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};

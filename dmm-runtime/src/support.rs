@@ -2,6 +2,7 @@
 
 pub use crate::arithmetic::{Matrix, MinimalNorm, Scalar, Vector, sparse};
 pub use crate::contract::{
-    Condition, Dynamics, DynamicsVisitor, Guards, NoGuards, Side, Solvability, System,
+    Condition, Dynamics, DynamicsVisitor, Guards, LOW_DEGREE, Metadata, NoGuards, RegionMetadata,
+    Side, Solvability, System,
 };
 pub use crate::series;

@@ -30,7 +30,7 @@ impl<Sys: System<N> + Default, const N: usize> Entry<Sys, N> {
     }
 
     fn region(&self, index: usize) -> Option<Sys::Region> {
-        Sys::REGIONS.get(index).copied()
+        self.system.region(index)
     }
 
     /// A vector of the first N entries; missing ones are NaN, which the runtime refuses.
@@ -122,11 +122,6 @@ struct Forwarding<'a, Sys> {
     level: Vec<f64>,
 }
 
-fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
-    let is_it = |candidate: &Sys::Region| *candidate == region;
-    Sys::REGIONS.iter().position(is_it).unwrap_or_default()
-}
-
 impl<Sys> Forwarding<'_, Sys> {
     fn record<const N: usize>(
         &mut self,
@@ -145,7 +140,7 @@ impl<Sys> Forwarding<'_, Sys> {
         self.sink.record(&Record {
             t,
             x: x.as_slice(),
-            region: index_of::<Sys, N>(region),
+            region: Sys::index(region),
             psi: &self.psi,
             size: &self.size,
             level: &self.level,
@@ -170,8 +165,8 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_,
             t: transition.t,
             x: transition.x.as_slice().to_vec(),
             interface: transition.interface,
-            from: index_of::<Sys, N>(transition.from),
-            to: index_of::<Sys, N>(transition.to),
+            from: Sys::index(transition.from),
+            to: Sys::index(transition.to),
             rate_from: transition.rate_from,
             rate_to: transition.rate_to,
         })
@@ -205,7 +200,7 @@ impl<const N: usize> DynamicsVisitor<N> for Conserved<'_, N> {
     fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) {
         let Time { value, remainder } = self.time;
         let mut psi = dynamics.conserved(value, &self.x);
-        if remainder != 0.0 && !F::AUTONOMOUS {
+        if remainder != 0.0 && !dynamics.is_autonomous() {
             // the digits of the time that a double cannot hold: ∂ₜψ = −∇ψ·f
             let (_, multiplier) = dynamics.multiplier(value, &self.x);
             psi -= multiplier * dynamics.vector_field(value, &self.x) * remainder;
@@ -276,7 +271,7 @@ impl<Sys: System<N> + Default, const N: usize> MethodVisitor for Together<'_, Sy
         let arrival = |end: End<Sys::Region, N>| Arrival {
             t: end.point.t,
             x: end.point.x.as_slice().to_vec(),
-            region: index_of::<Sys, N>(end.point.region),
+            region: Sys::index(end.point.region),
             statistics: end.statistics,
         };
         let ensemble = Ensemble::new(method).lanes(self.parallelism.lanes);
@@ -306,56 +301,51 @@ impl<Sys: System<N> + Default, const N: usize> Problem for Entry<Sys, N> {
     }
 
     fn system_name(&self) -> &'static str {
-        Sys::NAME
+        self.system.metadata().name
     }
 
-    fn declaration(&self) -> &'static str {
-        Sys::DECLARATION
+    fn declaration(&self) -> &str {
+        self.system.declaration()
     }
 
-    fn listing(&self) -> &'static str {
-        Sys::LISTING
+    fn listing(&self) -> &str {
+        self.system.listing()
     }
 
     fn states(&self) -> &'static [&'static str] {
-        const { &Sys::STATES }
+        self.system.metadata().states
     }
 
     fn interfaces(&self) -> &'static [&'static str] {
-        Sys::INTERFACES
+        self.system.metadata().interfaces
     }
 
     fn regions(&self) -> Vec<&'static str> {
-        Sys::REGIONS
-            .iter()
-            .map(|&region| Sys::region_name(region))
-            .collect()
+        let regions = self.system.metadata().regions.iter();
+        regions.map(|region| region.name).collect()
     }
 
     fn conserved_names(&self, region: usize) -> &'static [&'static str] {
-        self.region(region).map_or(&[], Sys::conserved_names)
+        let regions = self.system.metadata().regions;
+        regions.get(region).map_or(&[], |region| region.conserved)
     }
 
     fn region_on_side(&self, sign: f64) -> Option<usize> {
-        let is_there = |region: &Sys::Region| {
-            Sys::sides(*region)
-                .first()
-                .is_some_and(|side| side.sign() == sign)
-        };
-        Sys::REGIONS.iter().position(is_there)
+        let mut regions = self.system.metadata().regions.iter();
+        regions.position(|region| {
+            let side = region.sides.first();
+            side.is_some_and(|side| side.sign() == sign)
+        })
     }
 
     fn parameters(&self) -> Vec<(&'static str, f64)> {
-        Sys::PARAMETERS
-            .iter()
-            .copied()
-            .zip(self.system.parameters())
-            .collect()
+        let names = self.system.metadata().parameters.iter().copied();
+        names.zip(self.system.parameters()).collect()
     }
 
     fn set_parameter(&mut self, name: &str, value: f64) -> bool {
-        Sys::PARAMETERS
-            .iter()
+        let mut names = self.system.metadata().parameters.iter();
+        names
             .position(|&parameter| parameter == name)
             .and_then(|index| self.system.parameter_mut(index))
             .map(|parameter| *parameter = value)

@@ -224,9 +224,9 @@ pub trait Problem: Send + Sync {
     /// The name of the declared system.
     fn system_name(&self) -> &'static str;
     /// The declaration.
-    fn declaration(&self) -> &'static str;
+    fn declaration(&self) -> &str;
     /// The derived scheme in readable mathematics.
-    fn listing(&self) -> &'static str;
+    fn listing(&self) -> &str;
     /// Names of the states.
     fn states(&self) -> &'static [&'static str];
     /// Names of the interfaces.

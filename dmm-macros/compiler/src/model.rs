@@ -243,6 +243,11 @@ impl Model {
     }
 }
 
+/// An identifier as people read it.
+pub fn plain_text(ident: &Ident) -> String {
+    ident.to_string().trim_start_matches("r#").to_owned()
+}
+
 /// A region's name in `snake_case` as `CamelCase`, the variant that it becomes.
 pub fn camel_case(text: &str) -> String {
     let camel: String = text

@@ -82,16 +82,15 @@ fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenS
     quote! {
         impl #generics ::dmm_runtime::support::System<#count> for #name {
             type Region = #region;
-            const NAME: &'static str = "";
-            const STATES: [&'static str; #count] = [""; #count];
-            const PARAMETERS: &'static [&'static str] = &[];
-            const INTERFACES: &'static [&'static str] = &[];
-            const REGIONS: &'static [#region] = &[];
-            const DECLARATION: &'static str = "";
-            const LISTING: &'static str = "";
-            fn region_name(_: #region) -> &'static str { "" }
-            fn conserved_names(_: #region) -> &'static [&'static str] { &[] }
-            fn sides(_: #region) -> &'static [::dmm_runtime::support::Side] { &[] }
+            fn metadata(&self) -> &'static ::dmm_runtime::support::Metadata {
+                ::core::unreachable!("the declaration of this system has errors")
+            }
+            fn declaration(&self) -> &str { "" }
+            fn listing(&self) -> &str { "" }
+            fn region(&self, _: usize) -> ::core::option::Option<#region> {
+                ::core::option::Option::None
+            }
+            fn index(_: #region) -> usize { 0 }
             fn parameters(&self) -> ::std::vec::Vec<f64> { ::std::vec::Vec::new() }
             fn parameter_mut(&mut self, _: usize) -> ::core::option::Option<&mut f64> {
                 ::core::option::Option::None
@@ -107,6 +106,7 @@ fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenS
                 Scalar: ::dmm_runtime::support::Scalar,
                 Visitor: ::dmm_runtime::support::DynamicsVisitor<#count, Scalar>,
             >(
+                &self,
                 _: #region,
                 _: impl ::core::ops::Fn(usize) -> Scalar,
                 _: Visitor,

@@ -24,8 +24,8 @@
 ///     }
 /// }
 ///
-/// assert_eq!(Ramp::CONDITIONS[0].condition, "x > 0");
 /// let ramp = Ramp::default();
+/// assert_eq!(ramp.metadata().conditions[0].condition, "x > 0");
 /// let from = |x| Integrator::new(&ramp, Symmetric::step_size(0.01)).initial(0.0, [x, 0.5]);
 /// assert!(from(1.0).run_until(0.5).is_ok());
 /// let stopped = from(-1.0).run_until(0.5).unwrap_err();
@@ -33,7 +33,7 @@
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Condition {
-    /// The index of the region in [`System::REGIONS`](crate::System::REGIONS).
+    /// The index of the region in [`Metadata::regions`](crate::Metadata::regions).
     pub region: usize,
     /// The condition, as text.
     pub condition: &'static str,

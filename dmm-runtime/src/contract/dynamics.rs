@@ -41,24 +41,39 @@ pub trait Dynamics<S: Scalar, const N: usize, const M: usize>: Clone {
     /// is computed from them alone.
     fn over<Other: Scalar>(&self) -> Self::Over<Other>;
 
+    /// [`Dynamics::is_affine`], where the type tells: then one kind of flow is compiled.
+    const AFFINE: Option<bool>;
+
     /// Whether neither f nor ψ depends on the time.
-    const AUTONOMOUS: bool;
+    fn is_autonomous(&self) -> bool;
+
     /// How the implicit equation of a step is solved.
-    const SOLVABILITY: Solvability;
-    /// Whether f = A x + b with A and b depending on parameters alone. Then they can be read off
-    /// f at the origin and far out along each axis, and φ_τ is known exactly.
-    const AFFINE: bool = false;
+    fn solvability(&self) -> Solvability;
+
+    /// Whether f = A x + b with A and b depending on parameters alone: then φ_τ is known exactly.
+    /// A is [`Dynamics::jacobian`] anywhere, b is f(0).
+    #[inline(always)]
+    fn is_affine(&self) -> bool {
+        Self::AFFINE == Some(true)
+    }
+
+    /// Whether ψ number `quantity` is an affine function of t and x: every Taylor and Runge–Kutta
+    /// step conserves it to rounding without a correction.
+    fn is_affine_quantity(&self, quantity: usize) -> bool;
 
     /// Whether a guard keeps the sign that it has where the mode is entered.
-    const KEEPS_SIGNS: bool = false;
+    #[inline(always)]
+    fn keeps_signs(&self) -> bool {
+        false
+    }
 
     /// The guards of the mode.
     fn guards(&self) -> &Self::Guards;
 
-    /// The guards of the mode, with the sides that it lies on: [`Guards::SIDES`](crate::Guards::SIDES).
+    /// The indices of the guards of the mode, with the sides that it lies on: [`Guards::sides`].
     #[inline(always)]
-    fn sides() -> &'static [(usize, Side)] {
-        <Self::Guards as Guards<S, N>>::SIDES
+    fn sides(&self) -> &[(usize, Side)] {
+        self.guards().sides()
     }
 
     /// dg/dt = ∂ₜg + ∇g·f of a guard at (t, x).
@@ -76,6 +91,9 @@ pub trait Dynamics<S: Scalar, const N: usize, const M: usize>: Clone {
 
     /// f(t, x)
     fn vector_field(&self, t: S, x: &Vector<S, N>) -> Vector<S, N>;
+
+    /// ∂f/∂x at (t, x).
+    fn jacobian(&self, t: S, x: &Vector<S, N>) -> Matrix<S, N, N>;
 
     /// ψ(t, x)
     fn conserved(&self, t: S, x: &Vector<S, N>) -> Vector<S, M>;
@@ -123,7 +141,7 @@ pub trait Dynamics<S: Scalar, const N: usize, const M: usize>: Clone {
     type Unrolled: Unroll;
 
     /// Room for the coefficients.
-    fn series<const P: usize>() -> Self::Series<P>;
+    fn series<const P: usize>(&self) -> Self::Series<P>;
 
     /// From the coefficients up to order k, those of order k + 1 of the solution, at time t. Of
     /// the order 0 only those of the components are given.

@@ -22,42 +22,60 @@ impl Side {
     }
 }
 
+/// The Taylor coefficients of a polynomial of at most this degree fall off like those of the state.
+pub const LOW_DEGREE: u32 = 4;
+
 /// The functions whose zeros end a mode: those of the interfaces that bound a region, and the
 /// conditions of proofs that hold in it.
 ///
-/// Functions take the index of the interface in [`System::INTERFACES`](crate::System::INTERFACES). Behind the interfaces
-/// follow the [`System::CONDITIONS`](crate::System::CONDITIONS), which are positive where their conditions hold: the first one
-/// has the index `INTERFACES.len()`.
+/// Functions take the index of the interface in [`Metadata::interfaces`](crate::Metadata::interfaces). Behind the interfaces
+/// follow the [`Metadata::conditions`](crate::Metadata::conditions), which are positive where their conditions hold: the first one
+/// has the index `interfaces.len()`.
 pub trait Guards<S: Scalar, const N: usize>: Clone {
-    /// The indices of the guards of the mode, with the side on which it lies.
-    const SIDES: &'static [(usize, Side)];
-    /// The index of the first guard that is the condition of a proof, and no interface: beyond
-    /// it ψ may have another value.
-    const FIRST_CONDITION: usize = usize::MAX;
+    /// Whether there may be guards. Where there are none, everything about transitions is compiled
+    /// away.
+    const MAY_END: bool = true;
+    /// [`Guards::is_affine`], where the type tells.
+    const AFFINE: Option<bool> = None;
+    /// Whether the series of a g may have a radius of convergence of its own.
+    const MAY_LEAVE_STATE: bool = true;
 
-    /// Whether a guard is the condition of a proof.
+    /// The indices of the guards of the mode, with the side on which it lies.
+    fn sides(&self) -> &[(usize, Side)];
+
+    /// Whether a guard is the condition of a proof, and no interface: beyond it ψ may have another
+    /// value.
     #[inline(always)]
-    fn is_condition(guard: usize) -> bool {
-        guard >= Self::FIRST_CONDITION
+    fn is_condition(&self, _guard: usize) -> bool {
+        false
     }
 
     /// Whether no g depends on the time.
-    const AUTONOMOUS: bool;
+    fn is_autonomous(&self) -> bool;
+
     /// The degree of every g as a polynomial in t and x, if each is one: 1 where ∂ₜg and ∇g depend
     /// on parameters alone.
-    const DEGREE: Option<u32> = None;
+    fn degree(&self) -> Option<u32>;
+
     /// Whether every g is affine in t and x.
-    const AFFINE: bool = matches!(Self::DEGREE, Some(0..=1));
+    #[inline(always)]
+    fn is_affine(&self) -> bool {
+        matches!(self.degree(), Some(0..=1))
+    }
+
     /// Whether the Taylor coefficients of every g along a solution fall off like those of the
     /// solution: those of a polynomial of low degree do. Those of any other function may have a
     /// radius of convergence of their own.
-    const FOLLOWS_STATE: bool = matches!(Self::DEGREE, Some(0..=4));
+    #[inline(always)]
+    fn follows_state(&self) -> bool {
+        !Self::MAY_LEAVE_STATE || matches!(self.degree(), Some(0..=LOW_DEGREE))
+    }
 
-    /// One value for each entry of [`Guards::SIDES`]: the array `[T; SIDES.len()]`.
-    type Each<T: Copy>: Copy + AsRef<[T]> + AsMut<[T]>;
+    /// One value for each entry of [`Guards::sides`].
+    type Each<T: Copy>: Clone + AsRef<[T]> + AsMut<[T]>;
 
-    /// The array of `value(0)`, `value(1)`, …
-    fn each<T: Copy>(value: impl FnMut(usize) -> T) -> Self::Each<T>;
+    /// `value(0)`, `value(1)`, … of each entry of [`Guards::sides`].
+    fn each<T: Copy>(&self, value: impl FnMut(usize) -> T) -> Self::Each<T>;
 
     /// The same guards over other scalars.
     type Over<Other: Scalar>: Guards<Other, N>;
@@ -80,8 +98,8 @@ pub trait Guards<S: Scalar, const N: usize>: Clone {
     /// ∂ₜg and ∇g at (t, x).
     fn switching_gradient(&self, interface: usize, t: S, x: &Vector<S, N>) -> (S, Vector<S, N>);
 
-    /// The Taylor coefficients of every g, in the order of [`System::INTERFACES`](crate::System::INTERFACES) and
-    /// [`System::CONDITIONS`](crate::System::CONDITIONS), and of what they
+    /// The Taylor coefficients of every g, in the order of [`Metadata::interfaces`](crate::Metadata::interfaces) and
+    /// [`Metadata::conditions`](crate::Metadata::conditions), and of what they
     /// are computed from.
     type Series<const P: usize>: Clone + AsRef<[[S; P]]> + AsMut<[[S; P]]>;
 
@@ -89,7 +107,7 @@ pub trait Guards<S: Scalar, const N: usize>: Clone {
     type Unrolled: Unroll;
 
     /// Room for the coefficients.
-    fn series<const P: usize>() -> Self::Series<P>;
+    fn series<const P: usize>(&self) -> Self::Series<P>;
 
     /// The coefficients of order k of every g at time t, along the solution with the
     /// coefficients `states`.
@@ -107,9 +125,21 @@ pub trait Guards<S: Scalar, const N: usize>: Clone {
 pub struct NoGuards;
 
 impl<S: Scalar, const N: usize> Guards<S, N> for NoGuards {
-    const SIDES: &'static [(usize, Side)] = &[];
-    const AUTONOMOUS: bool = true;
-    const DEGREE: Option<u32> = Some(0);
+    const MAY_END: bool = false;
+    const AFFINE: Option<bool> = Some(true);
+    const MAY_LEAVE_STATE: bool = false;
+
+    fn sides(&self) -> &[(usize, Side)] {
+        &[]
+    }
+
+    fn is_autonomous(&self) -> bool {
+        true
+    }
+
+    fn degree(&self) -> Option<u32> {
+        Some(0)
+    }
 
     type Each<T: Copy> = [T; 0];
     type Over<Other: Scalar> = Self;
@@ -118,7 +148,7 @@ impl<S: Scalar, const N: usize> Guards<S, N> for NoGuards {
         Self
     }
 
-    fn each<T: Copy>(value: impl FnMut(usize) -> T) -> [T; 0] {
+    fn each<T: Copy>(&self, value: impl FnMut(usize) -> T) -> [T; 0] {
         std::array::from_fn(value)
     }
 
@@ -137,7 +167,7 @@ impl<S: Scalar, const N: usize> Guards<S, N> for NoGuards {
     type Series<const P: usize> = [[S; P]; 0];
     type Unrolled = series::Straight;
 
-    fn series<const P: usize>() -> [[S; P]; 0] {
+    fn series<const P: usize>(&self) -> [[S; P]; 0] {
         []
     }
 

@@ -8,11 +8,13 @@
 mod condition;
 mod dynamics;
 mod guards;
+mod metadata;
 mod system;
 
 pub use condition::Condition;
 pub use dynamics::{Dynamics, DynamicsVisitor, Solvability};
-pub use guards::{Guards, NoGuards, Side};
+pub use guards::{Guards, LOW_DEGREE, NoGuards, Side};
+pub use metadata::{Metadata, RegionMetadata};
 pub use system::System;
 
 pub(crate) use crate::arithmetic::{Matrix, Vector};

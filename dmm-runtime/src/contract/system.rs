@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::{Condition, Dynamics, DynamicsVisitor, Side};
+use super::{Dynamics, DynamicsVisitor, Metadata, RegionMetadata, Side};
 use crate::arithmetic::{Scalar, Vector};
 
 /// A piecewise-smooth system with N states: ẋ = fᵣ(t, x) while x is in region r
@@ -13,45 +13,22 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// The regions; an enumeration emitted beside the system.
     type Region: Copy + Eq + Debug + Send + Sync + 'static;
 
-    /// The system's name.
-    const NAME: &'static str;
-    /// The names of the states.
-    const STATES: [&'static str; N];
-    /// The names of the parameters.
-    const PARAMETERS: &'static [&'static str];
-    /// The names of the interfaces.
-    const INTERFACES: &'static [&'static str];
-    /// The conditions under which quantities were proved to be conserved, as far as a run has to
-    /// check them; see [`Condition`].
-    const CONDITIONS: &'static [Condition] = &[];
-    /// Every region, in the order of declaration.
-    const REGIONS: &'static [Self::Region];
+    /// Names and signs: what is known of the system besides its functions.
+    fn metadata(&self) -> &'static Metadata;
+
     /// The declaration, as text.
-    const DECLARATION: &'static str;
+    fn declaration(&self) -> &str;
+
     /// The derived scheme in readable mathematics.
-    const LISTING: &'static str;
+    fn listing(&self) -> &str;
 
-    /// The name of a region.
-    fn region_name(region: Self::Region) -> &'static str;
+    /// The region with an index in [`Metadata::regions`].
+    fn region(&self, index: usize) -> Option<Self::Region>;
 
-    /// The names of the quantities that are conserved in a region.
-    fn conserved_names(region: Self::Region) -> &'static [&'static str];
+    /// The index of a region in [`Metadata::regions`].
+    fn index(region: Self::Region) -> usize;
 
-    /// The name of an interface or, behind them, the condition of a guard: what an index of
-    /// [`Guards::SIDES`](crate::Guards::SIDES) stands for.
-    fn guard_name(index: usize) -> &'static str {
-        let guard = index.checked_sub(Self::INTERFACES.len());
-        let guard = guard.and_then(|number| Self::CONDITIONS.get(number));
-        let name = Self::INTERFACES.get(index).copied();
-        name.or(guard.map(|guard| guard.condition))
-            .unwrap_or_default()
-    }
-
-    /// On which side of each interface a region lies: the sign of g, in the order of
-    /// [`System::INTERFACES`].
-    fn sides(region: Self::Region) -> &'static [Side];
-
-    /// The parameters, in the order of [`System::PARAMETERS`].
+    /// The parameters, in the order of [`Metadata::parameters`].
     fn parameters(&self) -> Vec<f64>;
 
     /// The parameter at `index`, to be changed; nothing if there are not so many.
@@ -60,16 +37,50 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// Calls `visitor` with the dynamics of `region`, monomorphised for it.
     fn visit<V: DynamicsVisitor<N>>(&self, region: Self::Region, visitor: V) -> V::Output;
 
-    /// The same with parameters of any scalar, in the order of [`System::PARAMETERS`]: those of
+    /// The same with parameters of any scalar, in the order of [`Metadata::parameters`]: those of
     /// several systems at once, for example.
     fn visit_with<S: Scalar, V: DynamicsVisitor<N, S>>(
+        &self,
         region: Self::Region,
         parameter: impl Fn(usize) -> S,
         visitor: V,
     ) -> V::Output;
 
+    /// Every region, in the order of declaration.
+    fn regions(&self) -> impl Iterator<Item = Self::Region> {
+        let regions = 0..self.metadata().regions.len();
+        regions.filter_map(|index| self.region(index))
+    }
+
+    /// The name, the sides and the conserved quantities of a region.
+    #[inline]
+    fn of_region(&self, region: Self::Region) -> &'static RegionMetadata {
+        const UNKNOWN: &RegionMetadata = &RegionMetadata::UNKNOWN;
+        let regions = self.metadata().regions;
+        regions.get(Self::index(region)).unwrap_or(UNKNOWN)
+    }
+
+    /// The region on these sides of the interfaces, in the order of [`Metadata::interfaces`].
+    fn region_on(&self, sides: &[Side]) -> Option<Self::Region> {
+        self.regions()
+            .find(|&region| self.of_region(region).sides == sides)
+    }
+
+    /// On which side of an interface a region lies.
+    #[inline]
+    fn side(&self, region: Self::Region, interface: usize) -> Option<Side> {
+        self.of_region(region).sides.get(interface).copied()
+    }
+
+    /// The region on the other side of an interface.
+    #[inline]
+    fn neighbour(&self, region: Self::Region, interface: usize) -> Option<Self::Region> {
+        let neighbour = self.of_region(region).neighbours.get(interface)?;
+        self.region((*neighbour)?)
+    }
+
     /// ψ(t, x), the quantities that are conserved in `region`, in the order of
-    /// [`System::conserved_names`]. The point need not lie in the region.
+    /// [`RegionMetadata::conserved`]. The point need not lie in the region.
     ///
     /// ```
     /// use dmm_runtime::{System, pws};
@@ -85,8 +96,9 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// }
     ///
     /// let region = OscillatorRegion::Everywhere;
-    /// let psi = Oscillator {}.conserved(region, 0.0, &[3.0, 4.0].into());
-    /// assert_eq!(Oscillator::conserved_names(region), ["energy"]);
+    /// let oscillator = Oscillator {};
+    /// let psi = oscillator.conserved(region, 0.0, &[3.0, 4.0].into());
+    /// assert_eq!(oscillator.of_region(region).conserved, ["energy"]);
     /// assert_eq!(psi, [12.5]);
     /// ```
     fn conserved(&self, region: Self::Region, t: f64, x: &Vector<f64, N>) -> Vec<f64> {

@@ -30,6 +30,7 @@ impl Accumulation {
     /// Counts a transition.
     pub(crate) fn count<Sys: System<N>, const N: usize>(
         &mut self,
+        system: &Sys,
         (interface, region): (usize, Sys::Region),
         time: Time,
         x: &Vector<f64, N>,
@@ -41,11 +42,11 @@ impl Accumulation {
         let within = time.since(self.first);
         if within <= f64::EPSILON * time.since(self.start) {
             let kind = ErrorKind::Zeno {
-                interface: Sys::guard_name(interface),
+                interface: system.metadata().guard_name(interface),
                 transitions: TOGETHER,
                 within,
             };
-            return Err(kind.at(time.value, x.as_slice(), Sys::region_name(region)));
+            return Err(kind.at(time.value, x.as_slice(), system.of_region(region).name));
         }
         self.first = time;
         Ok(())

@@ -1,20 +1,14 @@
 //! The conditions under which the quantities of a region were proved to be conserved.
 
 use super::reading::Reading;
-use crate::contract::{Condition, System, Vector};
+use crate::contract::{Condition, Metadata, System, Vector};
 use crate::error::{Error, ErrorKind};
 
 /// The condition that the index of a guard behind those of the interfaces stands for.
 #[inline]
-pub(crate) fn condition<Sys: System<N>, const N: usize>(
-    index: usize,
-) -> Option<&'static Condition> {
-    if const { Sys::CONDITIONS.is_empty() } {
-        return None;
-    }
-    index
-        .checked_sub(Sys::INTERFACES.len())
-        .and_then(|number| Sys::CONDITIONS.get(number))
+pub(crate) fn condition(metadata: &Metadata, index: usize) -> Option<&'static Condition> {
+    let number = index.checked_sub(metadata.interfaces.len())?;
+    metadata.conditions.get(number)
 }
 
 /// Checks the conditions of a region that is entered at (t, x).
@@ -27,15 +21,17 @@ pub(crate) fn check_conditions<Sys: System<N>, const N: usize>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> Result<(), Error> {
-    for (number, condition) in Sys::CONDITIONS.iter().enumerate() {
-        if Sys::REGIONS.get(condition.region) != Some(&region) {
+    let metadata = system.metadata();
+    for (number, condition) in metadata.conditions.iter().enumerate() {
+        if condition.region != Sys::index(region) {
             continue;
         }
-        let index = Sys::INTERFACES.len() + number;
+        let index = metadata.interfaces.len() + number;
         let reading = Reading::new(system, region, index, t, x);
         let holds = !reading.is_zero() && (reading.value > 0.0 || condition.keeps_sign);
         if !holds || reading.value.is_nan() {
-            return Err(condition_error::<Sys, N>(condition, region, t, x));
+            let name = system.of_region(region).name;
+            return Err(condition_error(condition, name, t, x));
         }
     }
     Ok(())
@@ -43,9 +39,9 @@ pub(crate) fn check_conditions<Sys: System<N>, const N: usize>(
 
 /// The error of a solution that leaves a condition.
 #[cold]
-pub(crate) fn condition_error<Sys: System<N>, const N: usize>(
+pub(crate) fn condition_error<const N: usize>(
     condition: &Condition,
-    region: Sys::Region,
+    region: &'static str,
     t: f64,
     x: &Vector<f64, N>,
 ) -> Error {
@@ -53,5 +49,5 @@ pub(crate) fn condition_error<Sys: System<N>, const N: usize>(
         condition: condition.condition,
         quantity: condition.quantities,
     };
-    kind.at(t, x.as_slice(), Sys::region_name(region))
+    kind.at(t, x.as_slice(), region)
 }

@@ -199,14 +199,15 @@ pub(super) fn check_values<Sys: System<N>, const N: usize>(
     system: &Sys,
     x0: &Vector<f64, N>,
 ) -> Result<(), Error> {
+    let names = system.metadata();
     if let Some(i) = (0..N).find(|&i| !x0[i].is_finite()) {
         return invalid(
             "initial state",
-            format!("{} = {}", Sys::STATES[i], x0[i]),
+            format!("{} = {}", names.states[i], x0[i]),
             "must be finite",
         );
     }
-    let parameters = Sys::PARAMETERS.iter().zip(system.parameters());
+    let parameters = names.parameters.iter().zip(system.parameters());
     let mut infinite = parameters.filter(|(_, value)| !value.is_finite());
     match infinite.next() {
         Some((name, value)) => invalid("parameter", format!("{name} = {value}"), "must be finite"),

@@ -16,7 +16,7 @@ mod stepper;
 
 pub(crate) use accumulation::Accumulation;
 pub use integrator::{InitialValueProblem, Integrator};
-pub(crate) use next::{enter, neighbour};
+pub(crate) use next::enter;
 pub use recording::Recording;
-pub(crate) use run::{Run, index_of};
+pub(crate) use run::Run;
 pub use stepper::{Stepped, Stepper};

@@ -3,7 +3,7 @@
 use super::conditions::check_conditions;
 use super::reading::Reading;
 use crate::arithmetic::{State, Time};
-use crate::contract::{System, Vector};
+use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
 use crate::output::Transition;
 
@@ -16,18 +16,25 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     time: Time,
     state: &State<N>,
 ) -> Result<Transition<Sys::Region, N>, Error> {
-    let sides = BothSides::new(system, (from, rate_from), interface, time.value, &state.x)?;
-    let BothSides { to, rate_to, .. } = sides;
-    let inwards = Sys::sides(to)[interface].sign();
-    if rate_to * inwards < 0.0 && rate_from * inwards > 0.0 {
-        return Err(sides.sliding());
+    let (t, x) = (time.value, &state.x);
+    let Some(to) = system.neighbour(from, interface) else {
+        return Err(no_region(system, from, t, x));
+    };
+    let rate_to = Reading::new(system, to, interface, t, x).rate;
+    let inwards = system.side(to, interface).map_or(0.0, Side::sign);
+    let enters = rate_to * inwards > 0.0;
+    if !enters {
+        let sides = BothSides::new(system, (from, rate_from), interface, t, x)?;
+        let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
+        return Err(if slides {
+            sides.sliding()
+        } else {
+            sides.tangential()
+        });
     }
-    if rate_to * inwards <= 0.0 || rate_to.is_nan() {
-        return Err(sides.tangential());
-    }
-    check_conditions(system, to, time.value, &state.x)?;
+    check_conditions(system, to, t, x)?;
     Ok(Transition {
-        t: time.value,
+        t,
         time,
         x: state.x,
         remainder: state.remainder,
@@ -39,8 +46,20 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     })
 }
 
+/// There is no region on the other side.
+#[cold]
+fn no_region<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    from: Sys::Region,
+    t: f64,
+    x: &Vector<f64, N>,
+) -> Error {
+    ErrorKind::NoRegion.at(t, x.as_slice(), system.of_region(from).name)
+}
+
 /// A point of an interface with the rates dg/dt = ∂ₜg + ∇g·f of both sides.
 pub(crate) struct BothSides<'a, Sys: System<N>, const N: usize> {
+    system: &'a Sys,
     t: f64,
     x: &'a Vector<f64, N>,
     interface: usize,
@@ -54,16 +73,18 @@ pub(crate) struct BothSides<'a, Sys: System<N>, const N: usize> {
 
 impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
     /// Those of a region, whose rate is known, and its neighbour.
+    #[cold]
     pub(crate) fn new(
-        system: &Sys,
+        system: &'a Sys,
         (from, rate_from): (Sys::Region, f64),
         interface: usize,
         t: f64,
         x: &'a Vector<f64, N>,
     ) -> Result<Self, Error> {
-        let to = neighbour::<Sys, N>(from, interface)
-            .ok_or_else(|| ErrorKind::NoRegion.at(t, x.as_slice(), Sys::region_name(from)))?;
+        let to = system.neighbour(from, interface);
+        let to = to.ok_or_else(|| no_region(system, from, t, x))?;
         Ok(Self {
+            system,
             t,
             x,
             interface,
@@ -78,9 +99,9 @@ impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
     #[cold]
     pub(crate) fn sliding(&self) -> Error {
         self.error(ErrorKind::Sliding {
-            interface: Sys::INTERFACES[self.interface],
-            from: Sys::region_name(self.from),
-            to: Sys::region_name(self.to),
+            interface: self.interface_name(),
+            from: self.name(self.from),
+            to: self.name(self.to),
             rate_from: self.rate_from,
             rate_to: self.rate_to,
         })
@@ -90,9 +111,9 @@ impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
     #[cold]
     pub(crate) fn tangential(&self) -> Error {
         self.error(ErrorKind::Tangential {
-            interface: Sys::INTERFACES[self.interface],
-            from: Sys::region_name(self.from),
-            to: Sys::region_name(self.to),
+            interface: self.interface_name(),
+            from: self.name(self.from),
+            to: self.name(self.to),
             rate_from: self.rate_from,
             rate_to: self.rate_to,
         })
@@ -102,26 +123,19 @@ impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
     #[cold]
     pub(crate) fn ambiguous(&self) -> Error {
         self.error(ErrorKind::AmbiguousStart {
-            interface: Sys::INTERFACES[self.interface],
+            interface: self.interface_name(),
         })
     }
 
-    fn error(&self, kind: ErrorKind) -> Error {
-        kind.at(self.t, self.x.as_slice(), Sys::region_name(self.from))
+    fn interface_name(&self) -> &'static str {
+        self.system.metadata().guard_name(self.interface)
     }
-}
 
-/// The region on the other side of `interface`.
-pub(crate) fn neighbour<Sys: System<N>, const N: usize>(
-    region: Sys::Region,
-    interface: usize,
-) -> Option<Sys::Region> {
-    let sides = Sys::sides(region);
-    Sys::REGIONS.iter().copied().find(|&other| {
-        Sys::sides(other)
-            .iter()
-            .zip(sides)
-            .enumerate()
-            .all(|(index, (a, b))| (a == b) == (index != interface))
-    })
+    fn name(&self, region: Sys::Region) -> &'static str {
+        self.system.of_region(region).name
+    }
+
+    fn error(&self, kind: ErrorKind) -> Error {
+        kind.at(self.t, self.x.as_slice(), self.name(self.from))
+    }
 }

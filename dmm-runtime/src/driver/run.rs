@@ -40,7 +40,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         let (time, state) = (Time::new(t0), State::new(x0));
         let active = Active::new(start.interface);
         Self {
-            cursor: Cursor::new(time, state, index_of::<Sys, N>(start.region), active),
+            cursor: Cursor::new(time, state, Sys::index(start.region), active),
             region: start.region,
             memory: method.memory(t0, t_end),
             statistics: Statistics::default(),
@@ -130,7 +130,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         };
         match ended {
             Ok(ended) => Ok(ended),
-            Err(failure) => Err(self.error(failure)),
+            Err(failure) => Err(self.error(system, failure)),
         }
     }
 
@@ -142,29 +142,21 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         rate: f64,
     ) -> Result<Transition<Sys::Region, N>, Error> {
         let Cursor { time, state, .. } = &self.cursor;
-        if let Some(condition) = condition::<Sys, N>(guard) {
-            let region = self.region;
-            return Err(condition_error::<Sys, N>(
-                condition, region, time.value, &state.x,
-            ));
+        if let Some(condition) = condition(system.metadata(), guard) {
+            let region = system.of_region(self.region).name;
+            return Err(condition_error(condition, region, time.value, &state.x));
         }
-        (self.accumulation).count::<Sys, N>((guard, self.region), *time, &state.x)?;
+        (self.accumulation).count(system, (guard, self.region), *time, &state.x)?;
         let transition = enter(system, (self.region, rate), guard, *time, state)?;
         self.statistics.transitions += 1;
         self.region = transition.to;
-        self.cursor.enter(index_of::<Sys, N>(transition.to), guard);
+        self.cursor.enter(Sys::index(transition.to), guard);
         Ok(transition)
     }
 
     /// What stopped a method, with names.
     #[cold]
-    fn error(&self, failure: Failure) -> Error {
-        failure.named::<Sys, N>(&self.cursor, self.region)
+    fn error(&self, system: &Sys, failure: Failure) -> Error {
+        failure.named(system, &self.cursor, self.region)
     }
-}
-
-/// The number of a region.
-pub(crate) fn index_of<Sys: System<N>, const N: usize>(region: Sys::Region) -> usize {
-    let is_it = |candidate: &Sys::Region| *candidate == region;
-    Sys::REGIONS.iter().position(is_it).unwrap_or_default()
 }

@@ -58,7 +58,7 @@ impl<Met: Method, S: Sink<N>, const N: usize> DynamicsVisitor<N> for Segment<'_,
             memory,
             sink,
         } = self;
-        if D::KEEPS_SIGNS {
+        if dynamics.keeps_signs() {
             let dynamics = dynamics.oriented(cursor.time.value, &cursor.state.x);
             return method.segment(&dynamics, cursor, until, memory, sink);
         }

@@ -25,10 +25,11 @@ pub(crate) fn find_region<Sys: System<N>, const N: usize>(
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
     let no_region = || ErrorKind::NoRegion.at(t, x.as_slice(), "");
-    let mut sides = Vec::with_capacity(Sys::INTERFACES.len());
+    let interfaces = system.metadata().interfaces.len();
+    let mut sides = Vec::with_capacity(interfaces);
     let mut on = None;
-    let first = *Sys::REGIONS.first().ok_or_else(no_region)?;
-    for interface in 0..Sys::INTERFACES.len() {
+    let first = system.region(0).ok_or_else(no_region)?;
+    for interface in 0..interfaces {
         let reading = Reading::new(system, first, interface, t, x);
         if reading.is_zero() {
             on = Some(interface);
@@ -41,11 +42,7 @@ pub(crate) fn find_region<Sys: System<N>, const N: usize>(
             sides.push(Side::Negative);
         }
     }
-    let region = Sys::REGIONS
-        .iter()
-        .copied()
-        .find(|&region| Sys::sides(region) == sides)
-        .ok_or_else(no_region)?;
+    let region = system.region_on(&sides).ok_or_else(no_region)?;
     match on {
         None => Ok(Start {
             region,
@@ -89,13 +86,13 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
     let mut on = None;
-    for (interface, side) in Sys::sides(region).iter().enumerate() {
+    for (interface, side) in system.of_region(region).sides.iter().enumerate() {
         let reading = Reading::new(system, region, interface, t, x);
         if reading.is_zero() {
             if side.sign() * reading.rate <= 0.0 {
                 return Err(ErrorKind::InvalidInput {
                     what: "region",
-                    value: Sys::region_name(region).to_owned(),
+                    value: system.of_region(region).name.to_owned(),
                     requirement: "its vector field does not lead into it from the start, which is on \
                                   its interface",
                 }.into());
@@ -104,7 +101,7 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
         } else if side.sign() * reading.value < 0.0 || reading.value.is_nan() {
             return Err(ErrorKind::InvalidInput {
                 what: "region",
-                value: Sys::region_name(region).to_owned(),
+                value: system.of_region(region).name.to_owned(),
                 requirement: "the start does not lie in it",
             }
             .into());

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::conditions::check_conditions;
 use super::integrator::{InitialValueProblem, check_times, check_values};
-use super::run::{Run, index_of};
+use super::run::Run;
 use super::start::find_region;
 use crate::arithmetic::State;
 use crate::contract::{System, Vector};
@@ -163,7 +163,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
         check_values(&system, &x)?;
         let start = find_region(&system, t, &x)?;
         check_conditions(&system, start.region, t, &x)?;
-        let mode = index_of::<Sys, N>(start.region);
+        let mode = Sys::index(start.region);
         self.run.cursor = Cursor::new(time, state, mode, Active::new(start.interface));
         self.run.region = start.region;
         self.run.memory = self.method.memory(t, self.t_end);

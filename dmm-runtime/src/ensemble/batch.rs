@@ -15,7 +15,6 @@ use super::{Member, Outcome};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::Time;
 use crate::contract::System;
-use crate::driver::{index_of, neighbour};
 use crate::error::Error;
 use crate::events::ends::Decay;
 use crate::method::taylor::Taylor;
@@ -76,6 +75,8 @@ impl Queues {
 pub(super) struct Batch<'a, Sys: System<N>, const N: usize> {
     vectorised: Vectorised,
     method: &'a Taylor,
+    /// Of which the members differ in parameters.
+    system: &'a Sys,
     settings: Settings,
     trajectories: Vec<Trajectory<Sys, N>>,
     /// The parameters of each trajectory.
@@ -98,7 +99,11 @@ pub(super) fn run<Sys: System<N>, const N: usize>(
     members: Vec<Member<Sys, N>>,
     t_end: f64,
 ) -> Vec<Outcome<Sys::Region, N>> {
-    let mut batch = Batch::new(vectorised, method, members, t_end);
+    let Some(first) = members.first() else {
+        return Vec::new();
+    };
+    let system = first.system.clone();
+    let mut batch = Batch::new(vectorised, method, &system, members, t_end);
     while let Some(purpose) = batch.queues.longest() {
         batch.serve(purpose);
     }
@@ -106,29 +111,33 @@ pub(super) fn run<Sys: System<N>, const N: usize>(
 }
 
 /// By region and interface, the region on the other side.
-fn neighbours<Sys: System<N>, const N: usize>() -> Vec<Option<(usize, Sys::Region)>> {
-    let regions = Sys::REGIONS.iter();
+fn neighbours<Sys: System<N>, const N: usize>(system: &Sys) -> Vec<Option<(usize, Sys::Region)>> {
+    let interfaces = system.metadata().interfaces.len();
     let of = |region| {
-        (0..Sys::INTERFACES.len()).map(move |interface| {
-            let other = neighbour::<Sys, N>(region, interface)?;
-            Some((index_of::<Sys, N>(other), other))
+        (0..interfaces).map(move |interface| {
+            let other = system.neighbour(region, interface)?;
+            Some((Sys::index(other), other))
         })
     };
-    regions.flat_map(|&region| of(region)).collect()
+    system.regions().flat_map(of).collect()
 }
 
 impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
     fn new(
         vectorised: Vectorised,
         method: &'a Taylor,
+        system: &'a Sys,
         members: Vec<Member<Sys, N>>,
         t_end: f64,
     ) -> Self {
         let count = members.len();
         let fraction = method.fraction_at(ORDER).min(LONGEST);
+        let metadata = system.metadata();
+        let (interfaces, parameters) = (metadata.interfaces.len(), metadata.parameters.len());
         let mut batch = Self {
             vectorised,
             method,
+            system,
             settings: Settings {
                 end: t_end,
                 fraction,
@@ -136,20 +145,20 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                 corrects: method.corrects_level(),
             },
             trajectories: Vec::with_capacity(count),
-            parameters: Vec::with_capacity(count * Sys::PARAMETERS.len()),
+            parameters: Vec::with_capacity(count * parameters),
             members: Vec::with_capacity(count),
             outcomes: (0..count).map(|_| None).collect(),
-            queues: Queues::new(Sys::REGIONS.len(), Sys::INTERFACES.len()),
-            neighbours: neighbours::<Sys, N>(),
+            queues: Queues::new(metadata.regions.len(), interfaces),
+            neighbours: neighbours(system),
             register: Register::new(),
-            lanes: vec![Wide::from_f64(0.0); Sys::PARAMETERS.len()],
+            lanes: vec![Wide::from_f64(0.0); parameters],
         };
         for (index, member) in members.into_iter().enumerate() {
             match Trajectory::new(*method, member, t_end) {
                 Err(halted) => batch.outcomes[index] = Some(Err(halted)),
                 Ok(trajectory) => {
                     let number = batch.trajectories.len();
-                    let region = index_of::<Sys, N>(trajectory.region);
+                    let region = Sys::index(trajectory.region);
                     let queue = batch.queues.of(region, Job::Enter(trajectory.active));
                     queue.push(number);
                     batch.parameters.extend(trajectory.system.parameters());
@@ -174,8 +183,12 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             self.load(lane, next);
         }
         loop {
+            let Some(of_lanes) = self.system.region(region) else {
+                return;
+            };
             self.vectorised.run::<Sys, N>(Work {
-                region: Sys::REGIONS[region],
+                system: self.system,
+                region: of_lanes,
                 parameters: &self.lanes,
                 kernel: Kernel {
                     register: &mut self.register,
@@ -257,7 +270,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
 
     /// If all lanes have come to the interface they stay together: the region that they enter.
     fn enter(&mut self, region: usize, interface: usize) -> Option<usize> {
-        let other = self.neighbours[region * Sys::INTERFACES.len() + interface];
+        let other = self.neighbours[region * self.queues.interfaces + interface];
         let index = other?.0;
         let arrived = Leave::Crossed(interface);
         let stays = |lane| self.register.is_idle(lane) || self.register.leave(lane) == arrived;
@@ -288,7 +301,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         let trajectory = &mut self.trajectories[number];
         match trajectory.cross(
             interface,
-            self.neighbours[region * Sys::INTERFACES.len() + interface],
+            self.neighbours[region * self.queues.interfaces + interface],
         ) {
             Ok(region) => self
                 .queues
@@ -313,7 +326,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             Err(error) => self.finish(number, Err(error)),
             Ok(()) if trajectory.time == Time::new(end) => self.finish(number, Ok(())),
             Ok(()) => {
-                let region = index_of::<Sys, N>(trajectory.region);
+                let region = Sys::index(trajectory.region);
                 let job = match trajectory.active {
                     None => Job::Step,
                     active => Job::Enter(active),

@@ -56,7 +56,7 @@ impl<const N: usize> DynamicsVisitor<N, Wide> for Kernel<'_, N> {
 
     #[inline(always)]
     fn visit<const M: usize, F: Dynamics<Wide, N, M>>(self, dynamics: &F) {
-        let mut series = F::series::<COEFFICIENTS>();
+        let mut series = dynamics.series::<COEFFICIENTS>();
         let mut run = Run::<F, N, M> {
             register: self.register,
             settings: self.settings,
@@ -144,14 +144,14 @@ pub(super) fn is_finite<const N: usize>(place: &Place<N>) -> Mask<WIDTH> {
 impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The interfaces that bound the region, with its sides.
     #[inline(always)]
-    fn sides() -> &'static [(usize, crate::contract::Side)] {
-        <F::Guards as Guards<Wide, N>>::SIDES
+    fn sides(&self) -> &'_ [(usize, crate::contract::Side)] {
+        self.dynamics.sides()
     }
 
     /// The sign of g in the region.
     #[inline(always)]
-    fn sign(interface: usize) -> f64 {
-        let mut sides = Self::sides().iter();
+    fn sign(&self, interface: usize) -> f64 {
+        let mut sides = self.sides().iter();
         let side = sides.find(|(other, _)| *other == interface);
         side.map_or(0.0, |(_, side)| side.sign())
     }
@@ -162,7 +162,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         self.register.enter_level(self.dynamics);
         let barred = interface.map(|interface| {
             let rate = self.approach(interface, &self.register.place()).rate;
-            let inwards = Wide::from_f64(Self::sign(interface)) * rate;
+            let inwards = Wide::from_f64(self.sign(interface)) * rate;
             inwards.above(Wide::from_f64(0.0)).not()
         });
         Entry {
@@ -245,7 +245,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let last = size.above(remaining).or(size.equals(remaining));
         let mut tau = last.select(remaining, size);
         let mut place = self.register.place();
-        if F::AUTONOMOUS {
+        if self.dynamics.is_autonomous() {
             place.add_time(tau);
         } else {
             // the formulas are evaluated at a double
@@ -314,7 +314,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             elapsed: Wide::from_f64(0.0),
             interface: Wide::from_f64(0.0),
         };
-        if Self::sides().is_empty() {
+        if !<F::Guards as Guards<Wide, N>>::MAY_END {
             return ahead;
         }
         let field = self.dynamics.vector_field(place.t, &place.x);
@@ -325,7 +325,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             solution,
             1.0,
         );
-        for &(interface, side) in Self::sides() {
+        for &(interface, side) in self.sides() {
             let sign = Wide::from_f64(side.sign());
             let series = first.as_ref()[interface].map(|c| sign * c);
             let guards = self.dynamics.guards();

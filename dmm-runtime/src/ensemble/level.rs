@@ -68,7 +68,7 @@ impl<const N: usize> Place<N> {
         &self,
         dynamics: &F,
     ) -> Vector<Wide, N> {
-        if F::AUTONOMOUS {
+        if dynamics.is_autonomous() {
             return self.remainder;
         }
         let field = dynamics.vector_field(self.t, &self.x);

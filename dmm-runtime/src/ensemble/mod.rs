@@ -108,19 +108,19 @@ pub struct Ensemble<Met> {
 
 /// Whether the switching functions of every region follow the state, so that lanes tell as surely
 /// as enclosures what they meet.
-fn follow_state<Sys: System<N>, const N: usize>() -> bool {
-    let follows = |&region: &Sys::Region| Sys::visit_with(region, |_| 1.0, FollowsState);
-    Sys::REGIONS.iter().all(follows)
+fn follow_state<Sys: System<N>, const N: usize>(system: &Sys) -> bool {
+    let mut regions = system.regions();
+    regions.all(|region| system.visit(region, FollowsState))
 }
 
-/// See [`Guards::FOLLOWS_STATE`].
+/// See [`Guards::follows_state`].
 struct FollowsState;
 
 impl<const N: usize> DynamicsVisitor<N> for FollowsState {
     type Output = bool;
 
-    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, _: &F) -> bool {
-        <F::Guards as Guards<f64, N>>::FOLLOWS_STATE
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> bool {
+        dynamics.guards().follows_state()
     }
 }
 
@@ -161,14 +161,17 @@ impl<Met: Method> Ensemble<Met> {
         members: impl IntoIterator<Item = Member<Sys, N>>,
         sink: impl FnMut(usize, Outcome<Sys::Region, N>) -> ControlFlow<()>,
     ) -> usize {
-        let members = members.into_iter();
-        let may = self.lanes && N <= MOST_STATES && Sys::CONDITIONS.is_empty();
-        let in_lanes = may && follow_state::<Sys, N>();
+        let mut members = members.into_iter().peekable();
+        let in_lanes = members.peek().is_some_and(|first| {
+            let system = &first.system;
+            let may = self.lanes && N <= MOST_STATES && system.metadata().conditions.is_empty();
+            may && follow_state(system) && Vectorised::fits(system)
+        });
         let vectorised = match (in_lanes, self.method.in_lanes()) {
             (true, Some(settings)) => {
                 let taylor = Taylor::tolerance(settings.tolerance);
                 let taylor = taylor.level_correction(settings.level_correction);
-                Vectorised::of::<Sys, N>().map(|how| (how, taylor))
+                Vectorised::new().map(|how| (how, taylor))
             }
             _ => None,
         };

@@ -4,7 +4,7 @@ use super::Member;
 use super::register::Register;
 use crate::arithmetic::{State, Time};
 use crate::contract::{System, Vector};
-use crate::driver::{Accumulation, Run, enter, index_of};
+use crate::driver::{Accumulation, Run, enter};
 use crate::error::{Error, ErrorKind};
 use crate::method::taylor::{self, Taylor};
 use crate::method::{Active, Cursor, Ended, Statistics};
@@ -91,7 +91,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     ) -> Result<usize, Error> {
         let (time, x) = (self.time, &self.state.x);
         self.accumulation
-            .count::<Sys, N>((interface, self.region), time, x)?;
+            .count(&self.system, (interface, self.region), time, x)?;
         self.active = Some(interface);
         self.crossing = Some(Crossing {
             from: self.region,
@@ -107,7 +107,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     fn no_region(&self) -> Error {
-        let region = Sys::region_name(self.region);
+        let region = self.system.of_region(self.region).name;
         ErrorKind::NoRegion.at(self.time.value, self.state.x.as_slice(), region)
     }
 
@@ -137,7 +137,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     pub(super) fn go_on(&mut self, method: &Taylor, until: f64) -> Result<(), Error> {
         self.judge()?;
         let active = Active::new(self.active.take());
-        let mode = index_of::<Sys, N>(self.region);
+        let mode = Sys::index(self.region);
         let mut run = Run::<Sys, Taylor, N> {
             cursor: Cursor::new(self.time, self.state, mode, active),
             region: self.region,

@@ -9,6 +9,7 @@ use crate::contract::System;
 
 /// A kernel in a region.
 pub(super) struct Work<'a, Sys: System<N>, const N: usize> {
+    pub(super) system: &'a Sys,
     pub(super) region: Sys::Region,
     pub(super) parameters: &'a [super::register::Wide],
     pub(super) kernel: Kernel<'a, N>,
@@ -20,7 +21,7 @@ impl<Sys: System<N>, const N: usize> pulp::NullaryFnOnce for Work<'_, Sys, N> {
     #[inline(always)]
     fn call(self) {
         let parameters = self.parameters;
-        Sys::visit_with(self.region, |index| parameters[index], self.kernel);
+        (self.system).visit_with(self.region, |index| parameters[index], self.kernel);
     }
 }
 
@@ -32,19 +33,21 @@ pub(super) struct Vectorised {
 }
 
 impl Vectorised {
-    /// It, if the processor has what it takes and the system allows.
-    pub(super) fn of<Sys: System<N>, const N: usize>() -> Option<Self> {
-        let fits = |region: &Sys::Region| Sys::conserved_names(*region).len() <= N;
-        Sys::REGIONS.iter().all(fits).then(Self::new).flatten()
+    /// Whether a system allows it.
+    pub(super) fn fits<Sys: System<N>, const N: usize>(system: &Sys) -> bool {
+        let mut regions = system.metadata().regions.iter();
+        regions.all(|region| region.conserved.len() <= N)
     }
 
+    /// It, if the processor has what it takes.
     #[cfg(target_arch = "x86_64")]
-    fn new() -> Option<Self> {
+    pub(super) fn new() -> Option<Self> {
         pulp::x86::V3::try_new().map(|level| Self { level })
     }
 
+    /// It, if the processor has what it takes.
     #[cfg(not(target_arch = "x86_64"))]
-    fn new() -> Option<Self> {
+    pub(super) fn new() -> Option<Self> {
         cfg!(target_arch = "aarch64").then_some(Self {})
     }
 

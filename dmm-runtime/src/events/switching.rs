@@ -64,7 +64,7 @@ fn coefficients<S: Scalar, B: Guards<S, N>, const N: usize>(
     states: &[[S; FIRST]; N],
     count: usize,
 ) -> [S; FIRST] {
-    let mut series = B::series::<FIRST>();
+    let mut series = guards.series::<FIRST>();
     for order in 0..count {
         guards.advance(InUnits { order, unit }, t, states, &mut series);
     }

@@ -163,7 +163,7 @@ where
         dynamics,
         t,
         states: &states,
-        series: F::Guards::series(),
+        series: dynamics.guards().series(),
         unit,
     };
     U::run::<0, FIRST, 0, _>(&mut first, FIRST);
@@ -174,13 +174,13 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     Jet<F, U, N, M, P>
 {
     /// Room for the coefficients up to `order`, in a unit of time; those above stay zero.
-    pub(crate) fn new(order: usize, unit: f64) -> Self {
+    pub(crate) fn new(dynamics: &F, order: usize, unit: f64) -> Self {
         Self {
             order,
             unit,
             inverse: 1.0 / unit,
-            solution: F::series(),
-            switching: F::Guards::series(),
+            solution: dynamics.series(),
+            switching: dynamics.guards().series(),
             unroll: PhantomData,
         }
     }
@@ -217,7 +217,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     pub(crate) fn first_switching(&self, dynamics: &F, t: f64) -> FirstSeries<f64, F, N, M> {
         let (solution, unit) = (self.coefficients(), self.unit());
         // the unit enters by the time alone
-        if U::EXACT || F::Guards::AUTONOMOUS {
+        if U::EXACT || dynamics.guards().is_autonomous() {
             first_switching::<_, F, GuardsUnrolled<_, F, N, M>, N, M, P>(
                 dynamics, t, solution, unit,
             )

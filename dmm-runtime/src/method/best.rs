@@ -1,6 +1,6 @@
 //! The best that a system allows, mode by mode.
 
-use super::exact::{self, is_exact};
+use super::exact::{self, is_exact, is_exact_type};
 use super::taylor::{self, Taylor};
 use super::{Cursor, Ended, Failure, Method, Sink};
 use crate::contract::Dynamics;
@@ -116,7 +116,9 @@ impl Method for Best {
         D: Dynamics<f64, N, M>,
         S: Sink<N>,
     {
-        if const { is_exact::<D, N, M>() } {
+        if const { matches!(is_exact_type::<D, N, M>(), Some(true)) }
+            || const { is_exact_type::<D, N, M>().is_none() } && is_exact(dynamics)
+        {
             let sink = (sink, self.taylor.corrects_level());
             exact::segment(dynamics, cursor, until, &mut memory.exact, sink)
         } else {
@@ -134,7 +136,9 @@ impl Method for Best {
     where
         D: Dynamics<f64, N, M>,
     {
-        if const { is_exact::<D, N, M>() } {
+        if const { matches!(is_exact_type::<D, N, M>(), Some(true)) }
+            || const { is_exact_type::<D, N, M>().is_none() } && is_exact(dynamics)
+        {
             exact::reach(dynamics, cursor, to)
         } else {
             self.taylor.reach(&memory.taylor, dynamics, cursor, to)

@@ -9,9 +9,11 @@ impl Failure {
     #[cold]
     pub(crate) fn named<Sys: System<N>, const N: usize>(
         self,
+        system: &Sys,
         cursor: &Cursor<N>,
         region: Sys::Region,
     ) -> Error {
+        let names = system.metadata();
         let kind = match self.kind {
             FailureKind::Step(StepFailure::NotFinite) => ErrorKind::LeftDomain,
             FailureKind::Step(StepFailure::NoConvergence {
@@ -22,14 +24,14 @@ impl Failure {
                 iterations,
             },
             FailureKind::NotLocated { guard } => ErrorKind::LocationFailed {
-                interface: Sys::guard_name(guard),
+                interface: names.guard_name(guard),
             },
             FailureKind::Undecided { guard } => ErrorKind::Undecided {
-                interface: Sys::guard_name(guard),
+                interface: names.guard_name(guard),
             },
         };
         let (t, x) = (cursor.time.value, cursor.state.x.as_slice());
-        kind.at(t, x, Sys::region_name(region))
+        kind.at(t, x, system.of_region(region).name)
             .in_step(self.step_size)
     }
 }

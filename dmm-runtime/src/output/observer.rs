@@ -33,7 +33,7 @@ pub struct Transition<R, const N: usize> {
     /// What is missing from x̂*: with it g and ψ hold far beyond the digits of a double where the
     /// scheme is [`Taylor`](crate::Taylor).
     pub remainder: Vector<f64, N>,
-    /// Index of the interface in [`System::INTERFACES`](crate::System::INTERFACES).
+    /// Index of the interface in [`Metadata::interfaces`](crate::Metadata::interfaces).
     pub interface: usize,
     /// The region that is left.
     pub from: R,

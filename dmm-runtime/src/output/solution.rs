@@ -95,7 +95,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Solution<Sys, Met, N> {
         };
         match self.system.visit(anchor.region, reach) {
             Ok(()) => Ok(cursor.state.rounded()),
-            Err(failure) => Err(failure.named::<Sys, N>(&cursor, anchor.region)),
+            Err(failure) => Err(failure.named(&self.system, &cursor, anchor.region)),
         }
     }
 }

@@ -131,23 +131,23 @@ pub(super) struct Run {
 }
 
 /// Listens to a run.
-struct Listener<Sys: System<N>, const N: usize> {
+struct Listener<'a, Sys: System<N>, const N: usize> {
     points: Vec<(f64, Vector<f64, N>)>,
     crossings: Vec<Told>,
-    system: std::marker::PhantomData<Sys>,
+    system: &'a Sys,
 }
 
 /// A run that would make more crossings is endless.
 const MOST_CROSSINGS: usize = 5000;
 
-impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Listener<Sys, N> {
+impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Listener<'_, Sys, N> {
     fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
         self.points.push((point.t, point.x));
         ControlFlow::Continue(())
     }
 
     fn transition(&mut self, transition: &Transition<Sys::Region, N>) -> ControlFlow<()> {
-        let side = Sys::sides(transition.to).get(transition.interface);
+        let side = self.system.side(transition.to, transition.interface);
         let told = Told {
             t: transition.t,
             interface: transition.interface,
@@ -168,10 +168,10 @@ fn observe<Sys: System<N>, const N: usize>(
     initial: [f64; N],
     t_end: f64,
 ) -> Run {
-    let mut listener = Listener::<Sys, N> {
+    let mut listener = Listener {
         points: Vec::new(),
         crossings: Vec::new(),
-        system: std::marker::PhantomData,
+        system,
     };
     let result = Integrator::new(system, scheme)
         .initial(0.0, initial)

@@ -133,7 +133,7 @@ impl Campaign<'_> {
         self.observer.begins(Sys::TITLE);
         let mut tallies = vec![Tally::default(); SETTINGS.len()];
         for group in 0..self.groups {
-            let mut random = Random::new(Sys::NAME, group);
+            let mut random = Random::new(Sys::default().metadata().name, group);
             let mut scale = |size: f64| {
                 if random.once_in(3) {
                     random.decades(1.0 / size, size)

@@ -20,8 +20,8 @@ pws! {
     }
 }
 
-fn states<const N: usize, S: dmm_runtime::System<N>>(_system: &S) -> [&'static str; N] {
-    S::STATES
+fn states<const N: usize, S: dmm_runtime::System<N>>(system: &S) -> &'static [&'static str] {
+    system.metadata().states
 }
 
 fn main() {

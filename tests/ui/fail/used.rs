@@ -47,7 +47,7 @@ fn main() {
     let solution = Integrator::new(&ring, Symmetric::step_size(0.1))
         .initial(0.0, [1.0; 6])
         .run_until(10.0);
-    println!("{} {:?} {}", ring.m[2], Ring::STATES, solution.is_ok());
+    println!("{} {:?} {}", ring.m[2], ring.metadata().states, solution.is_ok());
 
     let mut chain = Chain::default();
     chain.m[3] = 2.0;

@@ -42,11 +42,11 @@ fn main() {
     assert_eq!(Chain::default().m, [1.0, 2.0, 1.0]);
     assert_eq!(chain.k, [1.0; 4]);
     assert_eq!(
-        Chain::STATES,
+        chain.metadata().states,
         ["q[0]", "q[1]", "q[2]", "p[0]", "p[1]", "p[2]"]
     );
     assert_eq!(
-        Chain::PARAMETERS,
+        chain.metadata().parameters,
         [
             "m[0]", "m[1]", "m[2]", "k[0]", "k[1]", "k[2]", "k[3]", "beta"
         ]

@@ -57,8 +57,8 @@ pws! {
 
 fn main() {
     let chain = Chain::default();
-    for region in Chain::REGIONS {
-        assert_eq!(Chain::conserved_names(*region), ["H"]);
+    for region in chain.metadata().regions {
+        assert_eq!(region.conserved, ["H"]);
     }
     let start = [0.1, 0.2, -0.1, -0.3, 0.4, 0.1, -0.2, 0.6];
     let energy = |x: &[f64; 8]| {
@@ -77,7 +77,7 @@ fn main() {
     assert!((energy(&end.x.into()) - energy(&start)).abs() < 1e-13);
 
     assert_eq!(
-        Charged::conserved_names(ChargedRegion::Left),
+        Charged::default().of_region(ChargedRegion::Left).conserved,
         ["energy", "height", "across"]
     );
     let charged = Charged::default();
@@ -90,7 +90,7 @@ fn main() {
     assert!((speed - 1.04).abs() < 1e-14);
     assert_eq!(end.x[4], 3.0);
 
-    assert_eq!(Driven::conserved_names(DrivenRegion::Everywhere), [""; 0]);
+    assert_eq!(Driven::default().of_region(DrivenRegion::Everywhere).conserved, [""; 0]);
     let solution = Integrator::new(&Driven::default(), Symmetric::step_size(0.01))
         .initial(0.0, [0.5, 0.0])
         .run_until(1.0)

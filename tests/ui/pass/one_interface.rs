@@ -38,9 +38,16 @@ fn main() {
     let system = Harmonic { k_above: 2.0, ..Default::default() };
     assert_eq!((system.k_above, system.k_below), (2.0, 3.0));
     assert_eq!(system.parameters(), [2.0, 3.0]);
-    assert_eq!(Harmonic::INTERFACES, ["spring"]);
-    assert_eq!(Harmonic::REGIONS, [HarmonicRegion::Above, HarmonicRegion::Below]);
-    assert_eq!(Harmonic::sides(HarmonicRegion::Above), [Side::Positive]);
-    assert_eq!(Harmonic::sides(HarmonicRegion::Below), [Side::Negative]);
-    assert!(Harmonic::DECLARATION.contains("let force = -k_below * x;"));
+    assert_eq!(system.metadata().interfaces, ["spring"]);
+    let regions: Vec<HarmonicRegion> = system.regions().collect();
+    assert_eq!(regions, [HarmonicRegion::Above, HarmonicRegion::Below]);
+    let [above, below] = [HarmonicRegion::Above, HarmonicRegion::Below];
+    for (region, side, other) in [(above, Side::Positive, below), (below, Side::Negative, above)] {
+        assert_eq!(system.of_region(region).sides, [side]);
+        assert_eq!(system.side(region, 0), Some(side));
+        assert_eq!(system.side(region, 1), None);
+        assert_eq!(system.neighbour(region, 0), Some(other));
+        assert_eq!(system.region_on(&[side]), Some(region));
+    }
+    assert!(system.declaration().contains("let force = -k_below * x;"));
 }

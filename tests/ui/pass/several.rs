@@ -22,6 +22,6 @@ pws! {
 }
 
 fn main() {
-    assert_eq!(First::NAME, "First");
-    assert_eq!(Second::NAME, "Second");
+    assert_eq!(First::default().metadata().name, "First");
+    assert_eq!(Second::default().metadata().name, "Second");
 }

@@ -19,9 +19,11 @@ pws! {
 fn main() {
     let system = Pendulum::default();
     assert_eq!(system.w2, 1.0);
-    assert_eq!(Pendulum::STATES, ["q", "p"]);
-    assert_eq!(Pendulum::PARAMETERS, ["w2"]);
-    assert!(Pendulum::INTERFACES.is_empty());
-    assert_eq!(Pendulum::REGIONS, [PendulumRegion::Everywhere]);
-    assert_eq!(Pendulum::conserved_names(PendulumRegion::Everywhere), ["energy"]);
+    let metadata = system.metadata();
+    assert_eq!(metadata.states, ["q", "p"]);
+    assert_eq!(metadata.parameters, ["w2"]);
+    assert!(metadata.interfaces.is_empty());
+    assert_eq!(metadata.regions.len(), 1);
+    assert_eq!(system.region(0), Some(PendulumRegion::Everywhere));
+    assert_eq!(system.of_region(PendulumRegion::Everywhere).conserved, ["energy"]);
 }

@@ -21,6 +21,6 @@ pws! {
 }
 
 fn main() {
-    assert_eq!(Damped::PARAMETERS, ["m", "c", "k"]);
-    assert_eq!(Decay::STATES, ["x"]);
+    assert_eq!(Damped::default().metadata().parameters, ["m", "c", "k"]);
+    assert_eq!(Decay::default().metadata().states, ["x"]);
 }

@@ -8,7 +8,7 @@
 mod listing;
 mod rust;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 
 use crate::program::Program;
 use crate::scheme::Scheme;
@@ -27,9 +27,4 @@ pub fn listing(scheme: &Scheme) -> String {
 #[cfg(feature = "explore")]
 pub fn latex(scheme: &Scheme) -> String {
     listing::latex(scheme)
-}
-
-/// An identifier as people read it.
-fn plain_text(ident: &Ident) -> String {
-    ident.to_string().trim_start_matches("r#").to_owned()
 }

@@ -14,7 +14,7 @@ use crate::scheme::{Explicit, RegionScheme, Scheme, Strategy};
 /// The program of a region.
 #[derive(Debug)]
 pub struct Dynamics {
-    /// f, ψ, Σ|terms of ψ|, (ψ, Λ), f^τ, (f^τ, ∂f^τ/∂x₁) and, where f or ψ depends on the time,
+    /// f, ∂f/∂x, ψ, Σ|terms of ψ|, (ψ, Λ), f^τ, (f^τ, ∂f^τ/∂x₁) and, where f or ψ depends on the time,
     /// ∂f^τ/∂t₁, in this order.
     pub functions: Functions,
     /// The recurrences of the Taylor coefficients of the solution of ẋ = f(t, x).
@@ -49,6 +49,7 @@ impl Dynamics {
 /// The results of the functions of a region.
 struct Written {
     field: Results,
+    jacobian: Results,
     psi: Results,
     psi_size: Results,
     multiplier: Results,
@@ -66,6 +67,7 @@ impl Written {
         let psi = lowering.column(&psi);
         Self {
             field: Results::Column(lowering.column(&declared.field)),
+            jacobian: Results::Matrix(lowering.rows(&scheme.jacobian)),
             multiplier: Results::ColumnAndMatrix(psi.clone(), lowering.rows(&scheme.multiplier)),
             psi: Results::Column(psi),
             psi_size: Results::Column(lowering.column(&sizes)),
@@ -87,11 +89,13 @@ impl Written {
         let at_point = [&mut self.field, &mut self.psi, &mut self.multiplier];
         let at_point = at_point.into_iter().map(Results::roots_mut).collect();
         target.optimise(written, at_point, optimiser);
+        target.optimise(written, vec![self.jacobian.roots_mut()], optimiser);
         let over_step = self.discrete.iter_mut();
         let over_step = over_step.map(|(_, results)| results.roots_mut()).collect();
         target.optimise(written, over_step, optimiser);
         let mut results = vec![
             (Quantity::VectorField, self.field),
+            (Quantity::Jacobian, self.jacobian),
             (Quantity::Conserved, self.psi),
             (Quantity::ConservedSize, self.psi_size),
             (Quantity::Multiplier, self.multiplier),

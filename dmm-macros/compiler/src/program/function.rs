@@ -14,6 +14,8 @@ use crate::algebra::{Id, Name};
 pub enum Quantity {
     /// f(t, x)
     VectorField,
+    /// ∂f/∂x at (t, x)
+    Jacobian,
     /// ψ(t, x)
     Conserved,
     /// Σ|terms of ψ(t, x)|, which the rounding error of ψ is measured against.

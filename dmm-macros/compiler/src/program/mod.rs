@@ -22,6 +22,7 @@ mod function;
 mod guards;
 mod inputs;
 mod lower;
+mod metadata;
 pub mod optimise;
 mod results;
 pub mod series;
@@ -36,6 +37,7 @@ pub use function::{Function, Functions, Quantity, Stage};
 pub use guards::Guards;
 pub use inputs::{Input, Variable};
 pub use lower::Lowered;
+pub use metadata::{Condition, Metadata, RegionMetadata};
 use optimise::Optimiser;
 pub use results::{Derivative, Projected, Results, Rows};
 pub use series::Series;
@@ -46,6 +48,8 @@ pub use stored::Stored;
 pub struct Program<'a> {
     /// What it was made from.
     pub scheme: &'a Scheme,
+    /// Names, and where the regions lie.
+    pub metadata: Metadata,
     /// The states, in order.
     pub states: Vec<Name>,
     /// The parameters, in order.
@@ -103,6 +107,7 @@ impl<'a> Program<'a> {
                 .iter()
                 .map(|one| DefaultValue::new(scheme, one.default))
                 .collect(),
+            metadata: Metadata::new(scheme),
             scheme,
             states,
             parameters,

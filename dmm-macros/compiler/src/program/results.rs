@@ -12,6 +12,8 @@ pub enum Results {
     Scalar(Id),
     /// A column.
     Column(Vec<Id>),
+    /// A matrix, as ∂f/∂x.
+    Matrix(Rows),
     /// A number and a column, as ∂ₜg and ∇g.
     ScalarAndColumn(Id, Vec<Id>),
     /// A column and a matrix with as many rows, as f^τ and ∂f^τ/∂x₁.
@@ -58,6 +60,7 @@ impl Results {
         match self {
             Self::Scalar(root) => vec![root],
             Self::Column(column) => column.iter_mut().collect(),
+            Self::Matrix(rows) => rows.iter_mut().flatten().collect(),
             Self::ScalarAndColumn(scalar, column) => {
                 let mut roots = vec![scalar];
                 roots.extend(column);

@@ -89,6 +89,10 @@ fn derive_region(
     };
     let field = region.field.iter().copied();
     let affine = !dag.variables(field.clone()).contains(&time) && is_affine(dag, field, states);
+    let arguments = [states, &[time]].concat();
+    let affine_quantities = psi.iter().map(|&psi| is_affine(dag, [psi], &arguments));
+    let affine_quantities = affine_quantities.collect();
+    let jacobian = jacobian(dag, &region.field, states);
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
     let variables = (states, model.parameters.as_slice());
     let checked = checked(dag, variables, (index, region), &sides, &strategy);
@@ -101,6 +105,8 @@ fn derive_region(
         refusals,
         solvability,
         autonomous,
+        jacobian,
+        affine_quantities,
         affine,
         proofs,
         checked,

@@ -59,6 +59,11 @@ pub struct RegionScheme {
     pub solvability: Solvability,
     /// Whether neither f nor ψ depends on the time.
     pub autonomous: bool,
+    /// ∂f/∂x, N×N, over `t` and the states.
+    pub jacobian: Vec<Vec<Id>>,
+    /// Which of the ψ are affine functions of t and x, with coefficients that depend on parameters
+    /// alone.
+    pub affine_quantities: Vec<bool>,
     /// Whether f = A x + b with A and b depending on parameters alone, so that the flow is exact.
     pub affine: bool,
     /// What was proved of the scheme.

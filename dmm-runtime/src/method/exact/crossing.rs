@@ -36,7 +36,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         found: Found,
         tau: f64,
     ) -> Result<Ended, Failure> {
-        let (guard, _) = D::sides()[found.side];
+        let (guard, _) = dynamics.sides()[found.side];
         let (mut time, mut state) = match self.meet(dynamics, sizes, found, tau) {
             Some(meeting) => meeting,
             None => self.halve(dynamics, sizes, found),
@@ -68,7 +68,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Option<(Time, State<N>)> {
         /// Nodes to try: an estimate is mostly next to the right one.
         const MOST_NODES: u32 = 16;
-        let (guard, _) = D::sides()[found.side];
+        let (guard, _) = dynamics.sides()[found.side];
         let mut elapsed = match found.precise {
             true => found.elapsed,
             false => sizes.expected(found.side, found.elapsed),
@@ -108,7 +108,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         sizes: &mut StepSizes<N>,
         found: Found,
     ) -> (Time, State<N>) {
-        let (guard, side) = D::sides()[found.side];
+        let (guard, side) = dynamics.sides()[found.side];
         let (mut lower, mut upper) = found.bracket;
         loop {
             let middle = f64::midpoint(lower, upper);

@@ -23,8 +23,22 @@ const LARGEST: usize = 8;
 
 /// Whether a mode is integrated by its exact flow: f and the functions of its guards are affine,
 /// and there are few states.
-pub(super) const fn is_exact<D: Dynamics<f64, N, M>, const N: usize, const M: usize>() -> bool {
-    D::AFFINE && <D::Guards as Guards<f64, N>>::AFFINE && N <= LARGEST
+#[inline(always)]
+pub(super) fn is_exact<D: Dynamics<f64, N, M>, const N: usize, const M: usize>(
+    dynamics: &D,
+) -> bool {
+    dynamics.is_affine() && dynamics.guards().is_affine()
+}
+
+/// The same, where the type tells: then the other kind of flow is not compiled.
+pub(super) const fn is_exact_type<D: Dynamics<f64, N, M>, const N: usize, const M: usize>()
+-> Option<bool> {
+    match (D::AFFINE, <D::Guards as Guards<f64, N>>::AFFINE) {
+        _ if N > LARGEST => Some(false),
+        (Some(false), _) | (_, Some(false)) => Some(false),
+        (Some(true), Some(true)) => Some(true),
+        _ => None,
+    }
 }
 
 /// What exact flows carry from segment to segment.

@@ -99,7 +99,7 @@ impl<const N: usize> StepSizes<N> {
             sixteenths: [const { None }; PARTS],
             switching: Vec::new(),
         };
-        let sides = <F::Guards as Guards<f64, N>>::SIDES;
+        let sides = dynamics.sides();
         let switching = sides.iter().map(|&(interface, _)| {
             let origin = Vector::zeros();
             let gradient = dynamics
@@ -191,27 +191,18 @@ fn composed<const N: usize>(flows: &[Propagator<N>], number: usize) -> Propagato
     bits.fold(flows[first].clone(), |flow, bit| flows[bit].after(&flow))
 }
 
-/// A and b of an affine field: b = f(0), and column j of A is f far out on axis j, where b is
-/// below the rounding errors.
+/// A = ∂f/∂x and b = f(0) of an affine field; nothing if an entry is not finite.
 fn coefficients<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
     dynamics: &F,
 ) -> Option<Coefficients<N>> {
-    // 2⁵⁰⁰
-    const FAR: f64 = f64::from_bits((1023 + 500) << 52);
-    let origin = dynamics.vector_field(0.0, &Vector::zeros());
-    let mut matrix = [[0.0; N]; N];
-    let mut finite = is_finite(&origin);
-    for j in 0..N {
-        let mut x = Vector::zeros();
-        x[j] = FAR;
-        let column = (dynamics.vector_field(0.0, &x) - origin) / FAR;
-        finite &= is_finite(&column);
-        for (row, entry) in matrix.iter_mut().zip(&column) {
-            row[j] = *entry;
-        }
-    }
-    let offset = origin.into();
-    finite.then_some(Coefficients { matrix, offset })
+    let origin = Vector::zeros();
+    let jacobian = dynamics.jacobian(0.0, &origin);
+    let offset = dynamics.vector_field(0.0, &origin);
+    let finite = is_finite(&offset) && jacobian.iter().all(|entry| entry.is_finite());
+    finite.then(|| Coefficients {
+        matrix: std::array::from_fn(|i| std::array::from_fn(|j| jacobian[(i, j)])),
+        offset: offset.into(),
+    })
 }
 
 /// About the spectral radius of A, not below it: ‖A¹⁶‖^(1/16); zero of a nilpotent one.

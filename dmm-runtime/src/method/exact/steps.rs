@@ -43,9 +43,9 @@ impl<D: Dynamics<f64, N, M>, const N: usize, const M: usize> Place<D, N, M> {
     #[inline(always)]
     fn new(dynamics: &D, t: f64, state: State<N>) -> Self {
         let field = dynamics.vector_field(t, &state.x);
-        let sides = D::sides();
+        let sides = dynamics.sides();
         let guards = dynamics.guards();
-        let readings = <D::Guards as Guards<f64, N>>::each(|i| {
+        let readings = guards.each(|i| {
             let (guard, side) = sides[i];
             let value = guards.switching_function(guard, t, &state.x);
             let (by_time, gradient) = guards.switching_gradient(guard, t, &state.x);
@@ -225,7 +225,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let (tau, x) = (trial.tau, &start.at.state.x);
         let exponent = trial.exponent.max(start.progress.exponent_before);
         let fourth_power = (tau * tau) * (tau * tau) * (1.0 / 24.0);
-        for (i, &(guard, _)) in D::sides().iter().enumerate() {
+        for (i, &(guard, _)) in dynamics.sides().iter().enumerate() {
             let fourth = match exponent > FIRST {
                 true => sizes.fourth_later(i, exponent, &start.progress.field_before),
                 false => sizes.fourth(i, &start.at.field),
@@ -271,12 +271,13 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Course {
         let t = self.cursor.time.value;
         let unit = unit_for(tau);
-        let mut jet = Jet::<D, Rolled, N, M, MOST_COEFFICIENTS>::new(MOST_COEFFICIENTS - 1, unit);
+        let mut jet =
+            Jet::<D, Rolled, N, M, MOST_COEFFICIENTS>::new(dynamics, MOST_COEFFICIENTS - 1, unit);
         jet.expand(dynamics, t, &self.cursor.state.x);
         jet.expand_switching(dynamics, t);
         let mut horizon = jet.in_units(tau);
         let mut first = Course::Free { room: false };
-        for (i, &(guard, side)) in D::sides().iter().enumerate() {
+        for (i, &(guard, side)) in dynamics.sides().iter().enumerate() {
             let coefficients = jet.switching(guard).map(|c| side.sign() * c);
             let x = &self.cursor.state.x;
             let size = dynamics.guards().switching_size(guard, t, x);

@@ -230,7 +230,7 @@ impl<Map: OneStep, Loc: Locator> Method for Adaptive<Map, Loc> {
             let values = readings::<N, M, D>(dynamics, time.value, &cursor.state.x);
             advance(&mut watches, &values, true);
             if segment.sink.point(time, &cursor.state).is_break() {
-                cursor.active = active::<N, M, D>(&watches);
+                cursor.active = active(dynamics, &watches);
                 cursor.level = Some(level.kept());
                 run.expansion = expansion;
                 memory.stopped = Some(run);
@@ -313,8 +313,8 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
         let remaining = until.since(start);
         let (tau, time) = match remaining {
             left if left <= wanted * NEARLY => (left, until),
-            left if left <= 2.0 * wanted => step_from::<N, M, D>(start, 0.5 * left),
-            _ => step_from::<N, M, D>(start, wanted),
+            left if left <= 2.0 * wanted => step_from(dynamics, start, 0.5 * left),
+            _ => step_from(dynamics, start, wanted),
         };
         if !(tau > 0.0 && time != start) {
             return Err(StepFailure::NotFinite);
@@ -348,10 +348,11 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
 
 /// The size and the end of a step of about `tau` from `start`.
 fn step_from<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+    dynamics: &D,
     start: Time,
     tau: f64,
 ) -> (f64, Time) {
-    if D::AUTONOMOUS {
+    if dynamics.is_autonomous() {
         return (tau, start.after(tau));
     }
     // the formulas are evaluated at a double

@@ -103,7 +103,7 @@ impl<F, const N: usize> Step<'_, F, N> {
                 true => 1.0,
                 false => from + weight,
             };
-            let tau = match F::AUTONOMOUS {
+            let tau = match self.dynamics.is_autonomous() {
                 true => weight * self.tau,
                 // telescoping sums need the very times that ψ(t, x) is evaluated at
                 false => (self.t0 + to * self.tau) - t0,
@@ -213,7 +213,7 @@ where
         };
         Memory {
             velocities: Self::each(History::new()),
-            propagator: match F::SOLVABILITY {
+            propagator: match dynamics.solvability() {
                 Solvability::Linear => step_size.and_then(whole),
                 Solvability::Affine | Solvability::Nonlinear => None,
             },
@@ -226,7 +226,7 @@ where
         memory: &mut Self::Memory<N>,
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
-        match F::SOLVABILITY {
+        match step.dynamics.solvability() {
             Solvability::Linear => propagate(memory.propagator.as_ref(), step.x0),
             Solvability::Affine | Solvability::Nonlinear => {
                 self.varied_step(step, memory, statistics)
@@ -240,7 +240,7 @@ where
         memory: &mut Self::Memory<N>,
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
-        if F::SOLVABILITY != Solvability::Nonlinear {
+        if step.dynamics.solvability() != Solvability::Nonlinear {
             return self.step(step, statistics);
         }
         let histories = memory.velocities.as_mut();

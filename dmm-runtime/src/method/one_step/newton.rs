@@ -62,7 +62,7 @@ impl<F, const N: usize> Step<'_, F, N> {
     where
         F: Dynamics<f64, N, M>,
     {
-        match F::SOLVABILITY {
+        match self.dynamics.solvability() {
             Solvability::Nonlinear => self.solve::<M>(predicted, statistics),
             // the residual is affine in d: its correction from any d is the solution
             Solvability::Affine | Solvability::Linear => self
@@ -204,7 +204,7 @@ impl<F, const N: usize> Step<'_, F, N> {
         let mut right = self
             .dynamics
             .discrete_vector_field(self.t0, self.x0, t1, &x1);
-        if !F::AUTONOMOUS {
+        if !self.dynamics.is_autonomous() {
             right += self.dynamics.time_derivative(self.t0, self.x0, t1, &x1) * self.tau;
         }
         Some(Correction {
@@ -236,7 +236,7 @@ impl<F, const N: usize> Step<'_, F, N> {
         let (field, by_x1) = dynamics.linearised(t0, x0, t1, &x1);
         let (_, by_x0) = dynamics.linearised(t1, &x1, t0, x0);
         let mut right = x0_rate + (by_x0 * x0_rate) * tau + field * (t1_rate - t0_rate);
-        if !F::AUTONOMOUS {
+        if !dynamics.is_autonomous() {
             let by_t0 = dynamics.time_derivative(t1, &x1, t0, x0) * t0_rate;
             let by_t1 = dynamics.time_derivative(t0, x0, t1, &x1) * t1_rate;
             right += (by_t0 + by_t1) * tau;

@@ -28,10 +28,10 @@ impl<const N: usize> Resolution<N> {
         tau: f64,
     ) -> f64 {
         const HALF: f64 = 0.5;
-        if const { <D::Guards as Guards<f64, N>>::AFFINE } {
+        if dynamics.guards().is_affine() {
             return RESOLVED;
         }
-        if const { !<D::Guards as Guards<f64, N>>::FOLLOWS_STATE } {
+        if !dynamics.guards().follows_state() {
             return UNRESOLVED;
         }
         let field = dynamics.vector_field(t, x);

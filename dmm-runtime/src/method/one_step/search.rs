@@ -70,17 +70,18 @@ pub(super) fn watches<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
     active: &Active,
 ) -> Watches<F, N, M> {
     let readings = readings::<N, M, F>(dynamics, t, x);
-    <F::Guards as Guards<f64, N>>::each(|i| {
-        let (guard, _) = F::sides()[i];
+    dynamics.guards().each(|i| {
+        let (guard, _) = dynamics.sides()[i];
         Watch::new(readings.as_ref()[i], active.contains(guard))
     })
 }
 
 /// The guards that a step may start on, as far as the watches know.
 pub(super) fn active<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+    dynamics: &F,
     watches: &Watches<F, N, M>,
 ) -> Active {
-    let watches = watches.as_ref().iter().zip(F::sides());
+    let watches = watches.as_ref().iter().zip(dynamics.sides());
     let mut active = Active::default();
     for (_, &(guard, _)) in watches.filter(|(watch, _)| watch.is_active) {
         active.insert(guard);
@@ -95,8 +96,8 @@ pub(super) fn readings<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> Readings<F, N, M> {
-    <F::Guards as Guards<f64, N>>::each(|i| {
-        let (guard, side) = F::sides()[i];
+    dynamics.guards().each(|i| {
+        let (guard, side) = dynamics.sides()[i];
         side.sign() * dynamics.guards().switching_function(guard, t, x)
     })
 }
@@ -169,7 +170,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
         let enclosed = Enclosed::new(dynamics.guards());
         let mut first: Option<Crossed<N>> = None;
         let mut end = dense.tau;
-        for (watch, &(guard, side)) in watches.as_ref().iter().zip(F::sides()) {
+        for (watch, &(guard, side)) in watches.as_ref().iter().zip(dynamics.sides()) {
             let crossing = Crossing {
                 map: self.map,
                 dynamics,
@@ -228,7 +229,7 @@ where
         end: dense.tau / unit,
         level: 0.0,
     };
-    match by_ends::<N, M, F>(enclosed, &search, dense, is_active) {
+    match by_ends(crossing.dynamics, enclosed, &search, dense, is_active) {
         Course::Free => return Ok(None),
         Course::Falls { from, .. } => {
             crossing.lower = from * unit;
@@ -284,7 +285,7 @@ fn locate_in<Map: OneStep, Loc: Locator, F: Dynamics<f64, N, M>, const N: usize,
     match located {
         Some(located) => Ok(Some(located)),
         // no step may end on the condition of a proof, beyond which ψ may have another value
-        None if <F::Guards as Guards<f64, N>>::is_condition(crossing.guard) => Ok(Some(Located {
+        None if crossing.dynamics.guards().is_condition(crossing.guard) => Ok(Some(Located {
             elapsed: 0.0,
             increment: Vector::zeros(),
         })),
@@ -294,12 +295,13 @@ fn locate_in<Map: OneStep, Loc: Locator, F: Dynamics<f64, N, M>, const N: usize,
 
 /// What the ends of a step tell of an interface whose switching function follows the state.
 fn by_ends<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+    dynamics: &F,
     enclosed: &Enclosed<'_, F::Guards, N>,
     search: &Search<'_, N>,
     dense: &Dense<'_, N>,
     is_active: bool,
 ) -> Course {
-    if !<F::Guards as Guards<f64, N>>::FOLLOWS_STATE {
+    if !dynamics.guards().follows_state() {
         return Course::Unknown;
     }
     let &Search {

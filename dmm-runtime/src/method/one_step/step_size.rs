@@ -147,7 +147,7 @@ impl<const N: usize> StepSizeControl<N> {
         x: &Vector<f64, N>,
     ) -> (Wanted, [[f64; COEFFICIENTS]; N]) {
         let p = self.order;
-        let mut series = F::series::<COEFFICIENTS>();
+        let mut series = dynamics.series::<COEFFICIENTS>();
         for (component, &x) in series.as_mut().iter_mut().zip(x) {
             component[0] = x;
         }

@@ -201,7 +201,7 @@ impl OneStep for Symmetric {
         dynamics: &F,
         step_size: Option<f64>,
     ) -> Memory<N> {
-        let propagator = match (F::SOLVABILITY, step_size) {
+        let propagator = match (dynamics.solvability(), step_size) {
             (Solvability::Linear, Some(tau)) => Propagator::new(dynamics, tau),
             _ => None,
         };
@@ -230,7 +230,7 @@ impl OneStep for Symmetric {
         memory: &mut Memory<N>,
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
-        match F::SOLVABILITY {
+        match step.dynamics.solvability() {
             Solvability::Linear => propagate(memory.propagator.as_ref(), step.x0),
             Solvability::Affine => self.step(step, statistics),
             Solvability::Nonlinear => {

@@ -169,7 +169,7 @@ impl<Map: OneStep, Loc: Locator> Method for Uniform<Map, Loc> {
             };
             let Some(end) = end else { continue };
             if end == Ended::Stopped {
-                steps.segment.cursor.active = active::<N, M, D>(&watches);
+                steps.segment.cursor.active = active(dynamics, &watches);
                 steps.segment.cursor.level = Some(level.kept());
             }
             return Ok(end);
@@ -233,7 +233,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
         let mut counts = Statistics::default();
         let mut state = self.segment.cursor.state;
         let mut node = self.memory.node;
-        let mut watching = *watches;
+        let mut watching = watches.clone();
         let mut resolution = Resolution::default();
         let mut reach = resolution.reach(
             dynamics,
@@ -254,7 +254,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
             let stride = loop {
                 let (t0, t1) = (grid.inner_value(node - 1), grid.inner_value(node));
                 // telescoping sums need the very times that ψ(t, x) is evaluated at
-                let tau = match D::AUTONOMOUS {
+                let tau = match dynamics.is_autonomous() {
                     true => grid.step_size,
                     false => t1 - t0,
                 };
@@ -289,14 +289,14 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
             }
             let t1 = grid.inner_value(node);
             if near || self.has_output(t1) {
-                self.settle::<M, D>(state, node, &mut counts);
-                *watches = watching;
+                self.settle(dynamics, state, node, &mut counts);
+                watches.clone_from(&watching);
                 if near
                     && let Some(end) = self.look_at(dynamics, level, watches, tau, &increment)?
                 {
                     return Ok(Some(end));
                 }
-                let end = self.memory.time(node, D::AUTONOMOUS);
+                let end = self.memory.time(node, dynamics.is_autonomous());
                 self.segment.outputs(dynamics, tau, end)?;
             }
             if corrects {
@@ -322,7 +322,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
                 break Ok(Some(Ended::Stopped));
             }
         };
-        self.settle::<M, D>(state, node, &mut counts);
+        self.settle(dynamics, state, node, &mut counts);
         *watches = watching;
         end.map_err(|failure| failure.over(grid.step_size))
     }
@@ -337,7 +337,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
         if self.memory.node > self.memory.grid.count {
             return Ok(Some(Ended::Finished));
         }
-        let end = self.memory.time(self.memory.node, D::AUTONOMOUS);
+        let end = self.memory.time(self.memory.node, dynamics.is_autonomous());
         let tau = end.since(self.segment.cursor.time);
         // zero where a transition was at this node, negative where a locator moved it beyond
         let mut stops = false;
@@ -411,12 +411,13 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
     #[cold]
     fn settle<const M: usize, D: Dynamics<f64, N, M>>(
         &mut self,
+        dynamics: &D,
         state: State<N>,
         node: u64,
         counts: &mut Statistics,
     ) {
         self.segment.cursor.state = state;
-        self.segment.cursor.time = self.memory.time(node - 1, D::AUTONOMOUS);
+        self.segment.cursor.time = self.memory.time(node - 1, dynamics.is_autonomous());
         let statistics = self.segment.sink.statistics();
         statistics.steps += node - self.memory.node;
         *statistics += std::mem::take(counts);

@@ -69,7 +69,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         (tau, time, state): (f64, Time, &State<N>),
         part: Part,
     ) -> Ahead {
-        if !<D::Guards as Guards<f64, N>>::FOLLOWS_STATE {
+        if <D::Guards as Guards<f64, N>>::MAY_LEAVE_STATE && !dynamics.guards().follows_state() {
             if !is_finite(&state.x) {
                 return Ahead::Free;
             }
@@ -83,7 +83,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let mut once: Option<Found> = None;
         let mut near = false;
         let series = jet.first_switching(dynamics, here.time.value);
-        for &(guard, side) in D::sides() {
+        for &(guard, side) in dynamics.sides() {
             let c = &series.as_ref()[guard];
             let guards = dynamics.guards();
             let value = guards.switching_function(guard, time.value, &state.x);
@@ -110,7 +110,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 Some(half) => Ahead::Undecided(half),
                 // the step cannot be made
                 None if !is_finite(&state.x) => Ahead::Free,
-                None if const { <D::Guards as Guards<f64, N>>::AFFINE } => {
+                None if dynamics.guards().is_affine() => {
                     self.first::<P, M, D, U>(dynamics, jet, here, tau, part)
                 }
                 // between roots that are close g is smaller than the rounding errors of its series
@@ -144,7 +144,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let tau = jet.in_units(tau);
         let mut first: Option<Found> = None;
         let mut horizon = tau;
-        for &(guard, side) in D::sides() {
+        for &(guard, side) in dynamics.sides() {
             let sign = side.sign();
             let coefficients = jet.switching(guard).map(|c| sign * c);
             let size = dynamics.guards().switching_size(guard, t, x);
@@ -195,7 +195,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let enclosed = Enclosed::new(dynamics.guards());
         let mut first: Option<Found> = None;
         let mut end = jet.in_units(tau);
-        for &(guard, side) in D::sides() {
+        for &(guard, side) in dynamics.sides() {
             let search = Search {
                 switching: &enclosed,
                 interface: guard,

@@ -38,6 +38,24 @@ pub(super) struct Found {
     pub(super) start: Option<(f64, f64)>,
 }
 
+impl Found {
+    /// The correction of a root at `elapsed`: a step of Halley's method, or of Newton's next to the
+    /// root.
+    #[inline(always)]
+    fn correction<const N: usize>(&self, elapsed: f64, approach: &Approach<N>) -> f64 {
+        let &Approach { value, rate, .. } = approach;
+        match self.start {
+            Some((start, slope)) => {
+                let inverse = 1.0 / elapsed;
+                let chord = (start - value) * inverse;
+                let bend = inverse * (6.0 * chord + 2.0 * slope + 4.0 * rate);
+                -value * rate / (rate * rate - 0.5 * value * bend)
+            }
+            None => -value / rate,
+        }
+    }
+}
+
 /// g at a point of the solution, and how it changes there.
 struct Approach<const N: usize> {
     value: f64,
@@ -100,7 +118,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let guard = found.guard;
         let located = self
             .locate::<P, M, D, U>(dynamics, level, jet, found, tau)
-            .or_else(|| self.about_condition::<P, M, D, U>(jet, found));
+            .or_else(|| self.about_condition::<P, M, D, U>(dynamics, jet, found));
         let Some((time, state, rate)) = located else {
             return Err(Failure::not_located(guard, tau));
         };
@@ -121,10 +139,11 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     #[cold]
     fn about_condition<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
         &self,
+        dynamics: &D,
         jet: &Jet<D, U, N, M, P>,
         found: &Found,
     ) -> Option<(Time, State<N>, f64)> {
-        if !<D::Guards as Guards<f64, N>>::is_condition(found.guard) {
+        if !dynamics.guards().is_condition(found.guard) {
             return None;
         }
         let state = self
@@ -136,7 +155,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         is_finite(&state.x).then_some((time, state, f64::NAN))
     }
 
-    /// t̂*, x̂* and dg/dt there.
+    /// t̂*, x̂* and dg/dt there: by Halley's method alone, which mostly needs no bracket.
     #[inline(always)]
     fn locate<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
         &self,
@@ -146,35 +165,42 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         found: &Found,
         tau: f64,
     ) -> Option<(Time, State<N>, f64)> {
-        let guard = found.guard;
+        let mut elapsed = found.elapsed;
+        for _ in 0..MOST_CORRECTIONS {
+            let (place, approach) = self.approach(dynamics, jet, found.guard, elapsed);
+            let delta = found.correction(elapsed, &approach);
+            if delta.abs() <= SMALL * tau {
+                let (lower, upper) = found.bracket;
+                if elapsed < lower || elapsed > upper {
+                    break;
+                }
+                return self.settle(dynamics, level, found.guard, place, approach);
+            }
+            elapsed += delta;
+        }
+        self.locate_in_bracket::<P, M, D, U>(dynamics, level, jet, found, tau)
+    }
+
+    /// The same within the bracket, which is halved where the method leaves it.
+    #[cold]
+    #[inline(never)]
+    fn locate_in_bracket<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+        &self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        jet: &Jet<D, U, N, M, P>,
+        found: &Found,
+        tau: f64,
+    ) -> Option<(Time, State<N>, f64)> {
         let mut elapsed = found.elapsed;
         let (mut lower, mut upper) = found.bracket;
         for _ in 0..MOST_HALVINGS {
-            let time = self.cursor.time.after(elapsed);
-            let state = self.cursor.state.after(&jet.increment(elapsed));
-            let approach = Approach::at(dynamics, guard, time, &state);
-            let Approach { value, rate, .. } = approach;
-            let delta = match found.start {
-                Some((start, slope)) => {
-                    let inverse = 1.0 / elapsed;
-                    let chord = (start - value) * inverse;
-                    let bend = inverse * (6.0 * chord + 2.0 * slope + 4.0 * rate);
-                    -value * rate / (rate * rate - 0.5 * value * bend)
-                }
-                None => -value / rate,
-            };
+            let (place, approach) = self.approach(dynamics, jet, found.guard, elapsed);
+            let delta = found.correction(elapsed, &approach);
             if delta.abs() <= SMALL * tau {
-                let place = (time, state);
-                // beyond a condition ψ may have another value
-                let corrects = self.method.corrects_level()
-                    && !<D::Guards as Guards<f64, N>>::is_condition(guard);
-                let settled = self.settle_on(dynamics, level, guard, place, (approach, corrects));
-                if settled.is_none() && corrects {
-                    return self.settle_uncorrected(dynamics, level, guard, place);
-                }
-                return settled;
+                return self.settle(dynamics, level, found.guard, place, approach);
             }
-            if found.sign * value > 0.0 {
+            if found.sign * approach.value > 0.0 {
                 lower = elapsed;
             } else {
                 upper = elapsed;
@@ -187,6 +213,40 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             };
         }
         None
+    }
+
+    /// The point of the series after `elapsed`, and g there.
+    #[inline(always)]
+    fn approach<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+        &self,
+        dynamics: &D,
+        jet: &Jet<D, U, N, M, P>,
+        guard: usize,
+        elapsed: f64,
+    ) -> ((Time, State<N>), Approach<N>) {
+        let time = self.cursor.time.after(elapsed);
+        let state = self.cursor.state.after(&jet.increment(elapsed));
+        let approach = Approach::at(dynamics, guard, time, &state);
+        ((time, state), approach)
+    }
+
+    /// The point on the guard next to one that is close to it.
+    #[inline(always)]
+    fn settle<const M: usize, D: Dynamics<f64, N, M>>(
+        &self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        guard: usize,
+        place: (Time, State<N>),
+        approach: Approach<N>,
+    ) -> Option<(Time, State<N>, f64)> {
+        // beyond a condition ψ may have another value
+        let corrects = self.method.corrects_level() && !dynamics.guards().is_condition(guard);
+        let settled = self.settle_on(dynamics, level, guard, place, (approach, corrects));
+        if settled.is_none() && corrects {
+            return self.settle_uncorrected(dynamics, level, guard, place);
+        }
+        settled
     }
 
     /// The same without a correction of the level, where ψ has no gradient: at a root that is zero
@@ -218,18 +278,19 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         /// A displacement of this part of the state or of the step has an error of second order far below a
         /// rounding error of doubles, and after one more of pairs.
         const SMALL: f64 = 1e-11;
-        let increment = state.x - self.cursor.state.x;
-        let weights = Weights::new(&state.x, &increment);
-        let small = SMALL * SMALL * (dot(&state.x, &state.x) + dot(&increment, &increment));
+        let weights = Weights::new(&state.x, &(state.x - self.cursor.state.x));
+        let small = SMALL * SMALL * weights.sum();
+        let mut psi = dynamics.multiplier(time.value, &state.x);
         let mut before = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
             let off = match corrects {
-                true => level.correction(dynamics, time, &state, &weights),
+                true => level.correction_by(dynamics, time, &state, &weights, &psi),
                 false => Vector::zeros(),
             };
             let displacement = approach.remove(&mut time, &mut state, &off);
             let size = dot(&displacement, &displacement);
             approach = Approach::at(dynamics, guard, time, &state);
+            psi = dynamics.multiplier(time.value, &state.x);
             // where g hardly changes, its rounding errors in doubles move the point further
             if size <= small || 4.0 * size >= before {
                 break;
@@ -240,9 +301,8 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             approach.value = switching_in_pairs(dynamics, guard, time, &state);
             let off = match corrects {
                 true => {
-                    let (_, multiplier) = dynamics.multiplier(time.value, &state.x);
                     let residual = level.residual(dynamics, time, &state);
-                    level.towards(&multiplier, &residual, &weights)
+                    level.towards(&psi.1, &residual, &weights)
                 }
                 false => Vector::zeros(),
             };
@@ -251,6 +311,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 return is_finite(&state.x).then_some((time, state, approach.rate));
             }
             approach = Approach::at(dynamics, guard, time, &state);
+            psi = dynamics.multiplier(time.value, &state.x);
         }
         None
     }

@@ -43,7 +43,7 @@ impl<D: Dynamics<f64, N, M>, const N: usize, const M: usize> Reach<'_, D, N, M> 
         } = self;
         let Cursor { time, state, .. } = &mut *self.cursor;
         let level = Level::enter(dynamics, *time, state, None);
-        let mut jet = Jet::<D, U, N, M, P>::new(method.order(), unit);
+        let mut jet = Jet::<D, U, N, M, P>::new(dynamics, method.order(), unit);
         let mut before = 0.0;
         while time.value < to {
             jet.expand(dynamics, time.value, &state.x);

@@ -6,7 +6,7 @@ use super::crossing::Found;
 use super::segment::{Here, Segment};
 use crate::arithmetic::Time;
 use crate::arithmetic::linear::is_finite;
-use crate::contract::Dynamics;
+use crate::contract::{Dynamics, Guards};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::OtherUnit;
 use crate::level::Level;
@@ -49,7 +49,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         dynamics: &D,
     ) -> Result<Ended, Failure> {
         let mut here = Here::of(self);
-        let mut jet = Jet::<D, U, N, M, P>::new(self.method.order(), self.memory.unit);
+        let mut jet = Jet::<D, U, N, M, P>::new(dynamics, self.method.order(), self.memory.unit);
         jet.expand(dynamics, here.time.value, &here.state.x);
         // after the chain of recurrences, which leaves the processor time for it
         let kept = self.cursor.level.as_deref();
@@ -115,12 +115,11 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let mut part = Part::WHOLE;
             let (tau, time, mut state) = loop {
                 let size = part.share * wanted;
-                let Some((tau, time)) = step_to::<N, M, D>(here.time, size, (remaining, end))
-                else {
+                let Some((tau, time)) = step_to(dynamics, here.time, size, (remaining, end)) else {
                     return Next::Not(size);
                 };
                 let state = here.state.after(&jet.increment(tau));
-                if D::sides().is_empty() {
+                if !<D::Guards as Guards<f64, N>>::MAY_END {
                     break (tau, time, state);
                 }
                 let end = (tau, time, &state);
@@ -176,6 +175,7 @@ enum Next<const N: usize, const M: usize> {
 /// The size and the end of a step of about `wanted`; nothing if it is none.
 #[inline(always)]
 fn step_to<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+    dynamics: &D,
     start: Time,
     wanted: f64,
     (remaining, end): (f64, f64),
@@ -184,7 +184,7 @@ fn step_to<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
         let end = Time::new(end);
         return Some((end.since(start), end));
     }
-    let (tau, time) = match D::AUTONOMOUS {
+    let (tau, time) = match dynamics.is_autonomous() {
         true => (wanted, start.after(wanted)),
         // the formulas are evaluated at a double
         false => {

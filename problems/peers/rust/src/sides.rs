@@ -62,9 +62,10 @@ impl<'a, Sys: System<N>, const N: usize> Sides<'a, Sys, N> {
     }
 
     fn go_to(&self, sign: f64) {
-        let is_there = |region: &&Sys::Region| Sys::sides(**region)[0].sign() == sign;
-        if let Some(region) = Sys::REGIONS.iter().find(is_there) {
-            self.region.set(*region);
+        let is_there =
+            |&region: &Sys::Region| self.system.side(region, 0).map(Side::sign) == Some(sign);
+        if let Some(region) = self.system.regions().find(is_there) {
+            self.region.set(region);
             self.sign.set(sign);
         }
     }

@@ -3,11 +3,11 @@
 //! For f^τ = f̄ − Λ^τᵀ λ the derivative is that of [`minimal_norm`](crate::scheme::Strategy),
 //! P (∂f̄/∂x₁ − B) − Λ⁺ C, of which the entries of ∂f̄/∂x₁, B and C are listed.
 
-use super::super::plain_text;
 use super::compose::{Entry, words};
 use super::document::{Part, Piece, Section};
 use super::lister::{Lister, symbol, titled};
 use crate::algebra::{Id, Name};
+use crate::model::plain_text;
 use crate::scheme::Strategy;
 
 /// The Jacobian of a region's step, without its trivial entries.

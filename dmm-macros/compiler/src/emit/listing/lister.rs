@@ -3,12 +3,12 @@
 
 use std::collections::HashMap;
 
-use super::super::plain_text;
 use super::compose::{Composer, Entry, words_and_signs};
 use super::document::{Part, Section};
 use crate::algebra::display::Symbol;
 use crate::algebra::{Dag, Id, Name};
 use crate::model::Region;
+use crate::model::plain_text;
 use crate::scheme::{RegionScheme, Scheme, Strategy};
 
 /// Lists one region.

@@ -1,6 +1,5 @@
 //! The sections of interfaces and regions: f and ψ, Λ and Λ^τ, f^τ, the residual, the proofs.
 
-use super::super::plain_text;
 use super::compose::{Composer, Entry, words};
 use super::document::{Document, Level, Part, Section};
 use super::jacobian;
@@ -9,6 +8,7 @@ use super::strategy;
 use crate::algebra::display::Symbol;
 use crate::algebra::{Id, Name};
 use crate::model::Sign;
+use crate::model::plain_text;
 use crate::scheme::{Scheme, Solvability, Strategy, findings};
 
 /// The listing of a system for lines of `width` characters.

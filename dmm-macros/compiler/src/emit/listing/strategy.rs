@@ -1,9 +1,9 @@
 //! How f^τ is made, why not otherwise, and f^τ.
 
-use super::super::plain_text;
 use super::compose::{Entry, words};
 use super::document::{Part, Phrase, Piece, Section};
 use super::lister::{Lister, symbol, titled};
+use crate::model::plain_text;
 use crate::scheme::{Explicit, Obstacle, Pairing, Strategy};
 
 /// Pairs are listed as rows if there are more than this.

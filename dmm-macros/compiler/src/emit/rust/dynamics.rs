@@ -88,11 +88,8 @@ fn implementation(
         Solvability::Linear => quote!(Linear),
     };
     let autonomous = scheme.autonomous;
-    let affine = scheme.affine.then(|| {
-        quote!(
-            const AFFINE: bool = true;
-        )
-    });
+    let affine = scheme.affine;
+    let affine_quantities = affine_quantities(&scheme.affine_quantities);
     let guards = own_guards(emission, region);
     let oriented = oriented(emission, region);
     let other = &emission.other;
@@ -104,9 +101,13 @@ fn implementation(
     quote! {
         #[automatically_derived]
         impl<#scalar: #bound> #dynamics<#scalar, #states, #conserved> for #name<#scalar> {
-            const AUTONOMOUS: bool = #autonomous;
-            #affine
-            const SOLVABILITY: #solvability = #solvability::#kind;
+            const AFFINE: ::core::option::Option<bool> = ::core::option::Option::Some(#affine);
+            #[inline(always)]
+            fn is_autonomous(&self) -> bool { #autonomous }
+            #[inline(always)]
+            fn solvability(&self) -> #solvability { #solvability::#kind }
+            #[inline(always)]
+            fn is_affine_quantity(&self, quantity: usize) -> bool { #affine_quantities }
             #guards
             #oriented
             type Over<#other: #bound> = #name<#other>;
@@ -117,6 +118,16 @@ fn implementation(
             #methods
             #series
         }
+    }
+}
+
+/// Whether the ψ number `quantity` is affine.
+fn affine_quantities(affine: &[bool]) -> TokenStream {
+    let numbers = (0..affine.len()).filter(|&number| affine[number]);
+    let mut numbers = numbers.map(paths::count).peekable();
+    match numbers.peek() {
+        Some(_) => quote!(::core::matches!(quantity, #(#numbers)|*)),
+        None => quote!(false),
     }
 }
 
@@ -133,7 +144,7 @@ fn advance(scope: &Scope<'_>, program: &Series) -> TokenStream {
         type Unrolled = #unrolled;
         /// No coefficients yet.
         #[inline]
-        fn series<const P: usize>() -> Self::Series<P> {
+        fn series<const P: usize>(&self) -> Self::Series<P> {
             [[#scalar::from_f64(0.0); P]; #slots]
         }
         /// The coefficients of order k + 1 of the solution, and those of order k of what it is
@@ -168,7 +179,8 @@ fn oriented(emission: &Emission<'_>, region: usize) -> Option<TokenStream> {
     let [guards, vector] = ["Guards", "Vector"].map(paths::support);
     keeps_sign.then(|| {
         quote! {
-            const KEEPS_SIGNS: bool = true;
+            #[inline(always)]
+            fn keeps_signs(&self) -> bool { true }
             fn oriented(&self, t: #scalar, state: &#vector<#scalar, #states>) -> Self {
                 Self { guards: #guards::oriented(&self.guards, t, state), ..*self }
             }

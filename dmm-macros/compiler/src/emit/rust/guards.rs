@@ -79,7 +79,7 @@ fn implementation(
             #constants
             type Each<T: ::core::marker::Copy> = [T; COUNT];
             #[inline]
-            fn each<T: ::core::marker::Copy>(value: impl FnMut(usize) -> T) -> [T; COUNT] {
+            fn each<T: ::core::marker::Copy>(&self, value: impl FnMut(usize) -> T) -> [T; COUNT] {
                 ::core::array::from_fn(value)
             }
             type Over<#other: #bound> = #name<#other, REGION, COUNT>;
@@ -97,9 +97,12 @@ fn implementation(
 /// What the trait is told about the functions.
 fn constants(program: &Guards) -> TokenStream {
     let side = paths::support("Side");
-    let first_condition = program.first_condition.map(|first| {
+    let is_condition = program.first_condition.map(|first| {
         let first = paths::count(first);
-        quote!(const FIRST_CONDITION: usize = #first;)
+        quote! {
+            #[inline(always)]
+            fn is_condition(&self, guard: usize) -> bool { guard >= #first }
+        }
     });
     let regions = paths::count(program.sides.len());
     let sides = program.sides.iter().map(|sides| {
@@ -110,20 +113,29 @@ fn constants(program: &Guards) -> TokenStream {
         quote!(&[#(#sides),*])
     });
     let autonomous = program.autonomous;
-    let degree = program.degree.map(|degree| {
-        let degree = Literal::u32_unsuffixed(degree);
-        quote! {
-            const DEGREE: ::core::option::Option<u32> = ::core::option::Option::Some(#degree);
+    let is_affine = program.degree.is_some_and(|degree| degree <= 1);
+    let degree = match program.degree {
+        Some(degree) => {
+            let degree = Literal::u32_unsuffixed(degree);
+            quote!(::core::option::Option::Some(#degree))
         }
-    });
+        None => quote!(::core::option::Option::None),
+    };
     quote! {
-        #first_condition
-        const SIDES: &'static [(usize, #side)] = {
+        const MAY_END: bool = COUNT > 0;
+        const AFFINE: ::core::option::Option<bool> = ::core::option::Option::Some(#is_affine);
+        const MAY_LEAVE_STATE: bool =
+            !::core::matches!(#degree, ::core::option::Option::Some(0..=dmm::LOW_DEGREE));
+        #is_condition
+        #[inline(always)]
+        fn sides(&self) -> &[(usize, #side)] {
             const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
-            BY_REGION[REGION]
-        };
-        const AUTONOMOUS: bool = #autonomous;
-        #degree
+            const { BY_REGION[REGION] }
+        }
+        #[inline(always)]
+        fn is_autonomous(&self) -> bool { #autonomous }
+        #[inline(always)]
+        fn degree(&self) -> ::core::option::Option<u32> { #degree }
     }
 }
 
@@ -239,7 +251,7 @@ fn advance(scope: &Scope<'_>, program: &Guards, turns: &Turns<'_>) -> TokenStrea
         type Unrolled = #unrolled;
         /// No coefficients yet.
         #[inline]
-        fn series<const P: usize>() -> Self::Series<P> {
+        fn series<const P: usize>(&self) -> Self::Series<P> {
             [[#scalar::from_f64(0.0); P]; #slots]
         }
         /// The coefficients of order k of every g along the series of the states.

@@ -26,6 +26,7 @@ pub(super) fn method(
     let small = quote!(#vector<#scalar, #m>);
     let result = match function.quantity {
         Quantity::Conserved | Quantity::ConservedSize => small,
+        Quantity::Jacobian => quote!(#matrix<#scalar, #n, #n>),
         Quantity::Multiplier => quote!((#small, #matrix<#scalar, #m, #n>)),
         Quantity::Linearised => quote!((#column, #matrix<#scalar, #n, #n>)),
         _ => column,
@@ -53,6 +54,7 @@ pub(super) fn method(
 fn names(quantity: Quantity) -> Option<(&'static str, &'static str)> {
     Some(match quantity {
         Quantity::VectorField => ("f(t, x)", "vector_field"),
+        Quantity::Jacobian => ("∂f/∂x at (t, x)", "jacobian"),
         Quantity::Conserved => ("ψ(t, x)", "conserved"),
         Quantity::ConservedSize => ("Σ|terms of ψ(t, x)|", "conserved_size"),
         Quantity::Multiplier => ("ψ(t, x) and Λ = ∇ψ(t, x)", "multiplier"),
@@ -78,6 +80,7 @@ fn values(scope: &Scope<'_>, block: &Block<'_>, results: &Results) -> TokenStrea
     match results {
         Results::Scalar(root) => block.value(*root),
         Results::Column(column) => scope.vector(block, column),
+        Results::Matrix(rows) => scope.matrix(block, rows),
         Results::ScalarAndColumn(scalar, column) => {
             let (scalar, column) = (block.value(*scalar), scope.vector(block, column));
             quote!((#scalar, #column))

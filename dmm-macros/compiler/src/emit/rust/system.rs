@@ -3,16 +3,14 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::super::{listing, plain_text};
+use super::super::listing;
 use super::dynamics::dynamics;
 use super::emission::Emission;
 use super::guards::{guards, sign};
 use super::item::{default, item, regions};
 use super::paths;
-use crate::algebra::Name;
 use crate::model::Parameter;
-use crate::program::Program;
-use crate::scheme::quantities;
+use crate::program::{Metadata, Program};
 
 /// Everything that `pws!` emits for a system.
 pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
@@ -22,6 +20,7 @@ pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
     let item = item(&emission, &listing);
     let regions = regions(&emission);
     let default = default(&emission);
+    let metadata = metadata(&program.metadata);
     let implementation = implementation(&emission, &listing);
     let guards = (emission.guards.as_ref())
         .zip(program.guards.as_ref())
@@ -43,6 +42,7 @@ pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
         const _: () = {
             #import
             #default
+            #metadata
             #implementation
             #guards
             #(#dynamics_of)*
@@ -68,8 +68,10 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let (name, region) = (&model.name, &emission.region);
     let (states, variants) = (paths::count(model.states.len()), &emission.variants);
     let [system, visitor, bound] = ["System", "DynamicsVisitor", "Scalar"].map(paths::support);
-    let constants = constants(emission, listing);
-    let by_region = by_region(emission);
+    let of_system = paths::support("Metadata");
+    let regions: Vec<_> = (0..variants.len()).map(paths::count).collect();
+    let across = across(emission);
+    let declaration = &model.source;
     let fields: Vec<TokenStream> = model.parameters.iter().map(field).collect();
     let indices: Vec<_> = (0..fields.len()).map(paths::count).collect();
     let count = paths::count(fields.len());
@@ -78,8 +80,20 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
         #[automatically_derived]
         impl #system<#states> for #name {
             type Region = #region;
-            #constants
-            #by_region
+            #[inline(always)]
+            fn metadata(&self) -> &'static #of_system { &METADATA }
+            fn declaration(&self) -> &str { #declaration }
+            fn listing(&self) -> &str { #listing }
+            #[inline(always)]
+            fn region(&self, index: usize) -> ::core::option::Option<#region> {
+                match index {
+                    #(#regions => ::core::option::Option::Some(#region::#variants),)*
+                    _ => ::core::option::Option::None,
+                }
+            }
+            #[inline(always)]
+            fn index(region: #region) -> usize { region as usize }
+            #across
             fn parameters(&self) -> ::std::vec::Vec<f64> { ::std::vec![#(self.#fields),*] }
             fn parameter_mut(&mut self, index: usize) -> ::core::option::Option<&mut f64> {
                 match index {
@@ -90,10 +104,11 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
             #[inline]
             fn visit<V: #visitor<#states>>(&self, region: #region, visitor: V) -> V::Output {
                 let parameters: [f64; #count] = [#(self.#fields),*];
-                Self::visit_with::<f64, V>(region, |index| parameters[index], visitor)
+                self.visit_with::<f64, V>(region, |index| parameters[index], visitor)
             }
             #[inline(always)]
             fn visit_with<#scalar: #bound, V: #visitor<#states, #scalar>>(
+                &self,
                 region: #region,
                 parameter: impl ::core::ops::Fn(usize) -> #scalar,
                 visitor: V,
@@ -107,79 +122,94 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
     }
 }
 
-/// The names and texts of `impl System`.
-fn constants(emission: &Emission<'_>, listing: &str) -> TokenStream {
-    let model = &emission.program.scheme.model;
-    let (region, variants) = (&emission.region, &emission.variants);
-    let name = plain_text(&model.name);
-    let count = paths::count(model.states.len());
-    let states = emission.program.states.iter().map(Name::as_str);
-    let parameters = emission.program.parameters.iter().map(Name::as_str);
-    let interfaces = model.interfaces.iter().map(|one| plain_text(&one.ident));
-    let declaration = &model.source;
-    let conditions = conditions(emission);
-    quote! {
-        const NAME: &'static str = #name;
-        const STATES: [&'static str; #count] = [#(#states),*];
-        const PARAMETERS: &'static [&'static str] = &[#(#parameters),*];
-        const INTERFACES: &'static [&'static str] = &[#(#interfaces),*];
-        #conditions
-        const REGIONS: &'static [#region] = &[#(#region::#variants),*];
-        const DECLARATION: &'static str = #declaration;
-        const LISTING: &'static str = #listing;
+/// The side of a region and its neighbour at an interface, of systems that have such: what a
+/// transition asks for.
+fn across(emission: &Emission<'_>) -> Option<TokenStream> {
+    let Metadata {
+        interfaces,
+        regions,
+        ..
+    } = &emission.program.metadata;
+    if interfaces.is_empty() {
+        return None;
     }
+    let (region, variants, side) = (&emission.region, &emission.variants, paths::support("Side"));
+    let (mut sides, mut neighbours) = (TokenStream::new(), TokenStream::new());
+    for (one, from) in regions.iter().zip(variants) {
+        for (interface, (&own, &other)) in one.sides.iter().zip(&one.neighbours).enumerate() {
+            let (interface, sign) = (paths::count(interface), sign(own));
+            sides.extend(quote!((#region::#from, #interface) => #side::#sign,));
+            if let Some(to) = other.and_then(|other| variants.get(other)) {
+                neighbours.extend(quote!((#region::#from, #interface) => #region::#to,));
+            }
+        }
+    }
+    let none = quote!(_ => return ::core::option::Option::None,);
+    let some = quote!(::core::option::Option::Some);
+    Some(quote! {
+        #[inline(always)]
+        fn side(&self, region: #region, interface: usize) -> ::core::option::Option<#side> {
+            #some(match (region, interface) { #sides #none })
+        }
+        #[inline(always)]
+        fn neighbour(
+            &self, region: #region, interface: usize
+        ) -> ::core::option::Option<#region> {
+            #some(match (region, interface) { #neighbours #none })
+        }
+    })
 }
 
-/// What a run has to check of the conditions of proofs, if there is anything.
-fn conditions(emission: &Emission<'_>) -> Option<TokenStream> {
-    let scheme = emission.program.scheme;
-    let condition_path = paths::support("Condition");
-    let mut conditions = scheme.checked_conditions().peekable();
-    conditions.peek()?;
-    let conditions = conditions.map(|checked| {
-        let region = paths::count(checked.region);
-        let condition = checked.condition.statement(scheme.dag());
-        let quantities = quantities(&scheme.model.regions[checked.region], checked);
-        let keeps_sign = checked.keeps_sign();
-        quote!(#condition_path {
+/// Names and signs.
+fn metadata(metadata: &Metadata) -> TokenStream {
+    let Metadata {
+        name,
+        states,
+        parameters,
+        interfaces,
+        conditions,
+        regions,
+    } = metadata;
+    let [of_system, of_region, condition, side] =
+        ["Metadata", "RegionMetadata", "Condition", "Side"].map(paths::support);
+    let conditions = conditions.iter().map(|one| {
+        let region = paths::count(one.region);
+        let (text, quantities, keeps_sign) = (&one.condition, &one.quantities, one.keeps_sign);
+        quote!(#condition {
             region: #region,
-            condition: #condition,
+            condition: #text,
             quantities: #quantities,
             keeps_sign: #keeps_sign,
         })
     });
-    Some(quote!(const CONDITIONS: &'static [#condition_path] = &[#(#conditions),*];))
-}
-
-/// The functions of `impl System` that tell about a region.
-fn by_region(emission: &Emission<'_>) -> TokenStream {
-    let model = &emission.program.scheme.model;
-    let (region, variants) = (&emission.region, &emission.variants);
-    let side = paths::support("Side");
-    let names = model.regions.iter().map(|one| plain_text(&one.ident));
-    let conserved = model.regions.iter().map(|one| {
-        let names = one.conserved.iter().map(|psi| plain_text(&psi.ident));
-        quote!(&[#(#names),*])
-    });
-    let sides = model.regions.iter().map(|one| {
-        // in the order of the interfaces
-        let mut sides = one.sides.clone();
-        sides.sort_by_key(|side| side.interface);
-        let sides = sides.into_iter().map(|one| {
-            let sign = sign(one.sign);
+    let regions = regions.iter().map(|one| {
+        let (name, conserved) = (&one.name, &one.conserved);
+        let sides = one.sides.iter().map(|&one| {
+            let sign = sign(one);
             quote!(#side::#sign)
         });
-        quote!(&[#(#sides),*])
+        let neighbours = one.neighbours.iter().map(|one| match one {
+            Some(index) => {
+                let index = paths::count(*index);
+                quote!(::core::option::Option::Some(#index))
+            }
+            None => quote!(::core::option::Option::None),
+        });
+        quote!(#of_region {
+            name: #name,
+            conserved: &[#(#conserved),*],
+            sides: &[#(#sides),*],
+            neighbours: &[#(#neighbours),*],
+        })
     });
     quote! {
-        fn region_name(region: #region) -> &'static str {
-            match region { #(#region::#variants => #names,)* }
-        }
-        fn conserved_names(region: #region) -> &'static [&'static str] {
-            match region { #(#region::#variants => #conserved,)* }
-        }
-        fn sides(region: #region) -> &'static [#side] {
-            match region { #(#region::#variants => #sides,)* }
-        }
+        static METADATA: #of_system = #of_system {
+            name: #name,
+            states: &[#(#states),*],
+            parameters: &[#(#parameters),*],
+            interfaces: &[#(#interfaces),*],
+            conditions: &[#(#conditions),*],
+            regions: &[#(#regions),*],
+        };
     }
 }

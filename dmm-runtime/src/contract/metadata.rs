@@ -1,0 +1,57 @@
+//! What is known of a system besides its functions: names, and the sides of its regions.
+
+use super::{Condition, Side};
+
+/// The names in a system, and where its regions lie.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Metadata {
+    /// The system's name.
+    pub name: &'static str,
+    /// The names of the states.
+    pub states: &'static [&'static str],
+    /// The names of the parameters.
+    pub parameters: &'static [&'static str],
+    /// The names of the interfaces.
+    pub interfaces: &'static [&'static str],
+    /// The conditions under which quantities were proved to be conserved, as far as a run has to
+    /// check them; see [`Condition`].
+    pub conditions: &'static [Condition],
+    /// The regions, in the order of declaration.
+    pub regions: &'static [RegionMetadata],
+}
+
+/// The name of a region, where it lies, and the names of what is conserved in it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct RegionMetadata {
+    /// Its name.
+    pub name: &'static str,
+    /// The names of the quantities that are conserved in it.
+    pub conserved: &'static [&'static str],
+    /// On which side of each interface it lies: the sign of g.
+    pub sides: &'static [Side],
+    /// The index of the region on the other side of each interface, if there is one.
+    pub neighbours: &'static [Option<usize>],
+}
+
+impl RegionMetadata {
+    /// That of no region.
+    pub(crate) const UNKNOWN: Self = Self {
+        name: "",
+        conserved: &[],
+        sides: &[],
+        neighbours: &[],
+    };
+}
+
+impl Metadata {
+    /// The name of an interface or, behind them, the condition of a guard: what an index of
+    /// [`Guards::sides`](crate::Guards::sides) stands for.
+    pub fn guard_name(&self, index: usize) -> &'static str {
+        let condition = || {
+            let number = index.checked_sub(self.interfaces.len())?;
+            Some(self.conditions.get(number)?.condition)
+        };
+        let name = self.interfaces.get(index).copied();
+        name.or_else(condition).unwrap_or_default()
+    }
+}
