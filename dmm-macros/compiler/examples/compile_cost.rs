@@ -194,14 +194,9 @@ fn measure(input: TokenStream) -> Result<Cost, String> {
         .filter(|_| diagnostics.is_empty())
         .and_then(|declaration| check::resolve(declaration, &mut diagnostics));
     clock.lap(1);
-    let model = model.map(|mut model| {
-        proofs::check(&mut model, &mut diagnostics);
-        model
-    });
+    let proved = model.and_then(|model| proofs::prove(model, &mut diagnostics));
     clock.lap(2);
-    let scheme = model
-        .filter(|_| diagnostics.is_empty())
-        .and_then(|model| scheme::derive(model, &mut diagnostics));
+    let scheme = proved.and_then(|proved| scheme::derive(proved, &mut diagnostics));
     clock.lap(3);
     let program = scheme.as_ref().map(Program::new);
     clock.lap(4);
@@ -217,7 +212,7 @@ fn measure(input: TokenStream) -> Result<Cost, String> {
             conserved: scheme
                 .regions
                 .iter()
-                .map(|region| region.multiplier.len())
+                .map(|region| region.proved.multiplier.len())
                 .sum(),
             nodes: scheme.dag().len(),
             stages: clock.laps,

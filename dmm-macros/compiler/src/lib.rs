@@ -63,9 +63,9 @@
 //! assert_eq!(to_text(&model.dag, region.conserved[0].psi), "y^2 - x^3 - a*x");
 //! ```
 //!
-//! ## Model → proofs
+//! ## Model → proved model
 //!
-//! [`proofs::check`] decides ∂ₜψ + ∇ψ·f = 0 by a normal form of both: the derivative
+//! [`proofs::prove`] decides ∂ₜψ + ∇ψ·f = 0 by a normal form of both: the derivative
 //! 2y (3x² + a) − (3x² + a) 2y is zero identically, and no condition on x or y is needed.
 //!
 //! ```
@@ -80,14 +80,14 @@
 //! # }";
 //! # let mut diagnostics = Diagnostics::new();
 //! # let parsed = syntax::parse(declaration.parse().unwrap(), &mut diagnostics).unwrap();
-//! # let mut model = check::resolve(parsed, &mut diagnostics).unwrap();
-//! use dmm_compiler::model::Conservation;
-//! use dmm_compiler::proofs;
+//! # let model = check::resolve(parsed, &mut diagnostics).unwrap();
+//! use dmm_compiler::algebra::to_text;
+//! use dmm_compiler::proofs::{self, Conservation};
 //!
-//! proofs::check(&mut model, &mut diagnostics);
-//! let evidence = &model.regions[0].conserved[0].evidence;
-//! assert_eq!(*evidence, Conservation::Proved(Vec::new()));
-//! assert!(diagnostics.is_empty());
+//! let proved = proofs::prove(model, &mut diagnostics).unwrap();
+//! let region = &proved.regions[0];
+//! assert_eq!(region.evidence, [Conservation::Proved(Vec::new())]);
+//! assert_eq!(to_text(&proved.model.dag, region.multiplier[0][1]), "2*y");
 //! ```
 //!
 //! ## Model → invariants
@@ -113,8 +113,8 @@
 //!
 //! ## Proofs → Λ and Λ^τ
 //!
-//! [`scheme::derive`] differentiates ψ for the multiplier Λ = ∇ψ, and takes its symmetric divided
-//! differences for Λ^τ: quotients of Δψ by Δx in which nothing is divided and nothing cancels.
+//! The multiplier is Λ = ∇ψ. [`scheme::derive`] takes the symmetric divided differences of ψ
+//! for Λ^τ: quotients of Δψ by Δx in which nothing is divided and nothing cancels.
 //!
 //! ```
 //! # let declaration = "system Elliptic {
@@ -129,8 +129,8 @@
 //! # let (dag, region) = (scheme.dag(), &scheme.regions[0]);
 //! use dmm_compiler::algebra::to_text;
 //!
-//! assert_eq!(to_text(dag, region.multiplier[0][0]), "-(3*x^2 + a)");
-//! assert_eq!(to_text(dag, region.multiplier[0][1]), "2*y");
+//! assert_eq!(to_text(dag, region.proved.multiplier[0][0]), "-(3*x^2 + a)");
+//! assert_eq!(to_text(dag, region.proved.multiplier[0][1]), "2*y");
 //! assert_eq!(to_text(dag, region.discrete_multiplier[0][0]), "-(x₁^2 + x₁*x₀ + x₀^2 + a)");
 //! assert_eq!(to_text(dag, region.discrete_multiplier[0][1]), "y₁ + y₀");
 //! ```
@@ -232,6 +232,8 @@ pub mod proofs;
 pub mod scheme;
 pub mod stub;
 pub mod syntax;
+#[cfg(feature = "text")]
+pub mod text;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -278,10 +280,7 @@ pub fn derive(declaration: Declaration, diagnostics: &mut Diagnostics) -> Option
     if !diagnostics.is_empty() {
         return None;
     }
-    let mut model = check::resolve(declaration, diagnostics)?;
-    proofs::check(&mut model, diagnostics);
-    if !diagnostics.is_empty() {
-        return None;
-    }
-    scheme::derive(model, diagnostics)
+    let model = check::resolve(declaration, diagnostics)?;
+    let proved = proofs::prove(model, diagnostics)?;
+    scheme::derive(proved, diagnostics)
 }

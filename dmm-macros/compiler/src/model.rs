@@ -6,7 +6,7 @@
 use proc_macro2::Ident;
 use syn::{Attribute, Visibility};
 
-use crate::algebra::{Dag, Id, Name, to_text};
+use crate::algebra::{Dag, Id, Name};
 use crate::diagnostics::Extent;
 
 /// A piecewise-smooth system ẋ = fᵣ(t, x) on regions r, the sign patterns of switching
@@ -93,8 +93,6 @@ pub struct Region {
     /// The canonical pairs of a `hamiltonian`, as indices of states (q, p): q̇ = ∂H/∂p and
     /// ṗ = −∂H/∂q by construction.
     pub canonical: Vec<(usize, usize)>,
-    /// What is known of the independence of the ψ; filled in by the proofs.
-    pub independence: Independence,
 }
 
 /// On which side of an interface a region lies.
@@ -146,8 +144,6 @@ pub struct Conserved {
     pub span: Extent,
     /// On what grounds it is declared.
     pub claim: Claim,
-    /// Why it is conserved; filled in by the proofs.
-    pub evidence: Conservation,
 }
 
 /// On what grounds a quantity is declared to be conserved.
@@ -159,70 +155,6 @@ pub enum Claim {
     Assumed,
     /// It is the H of a `hamiltonian`.
     Hamiltonian,
-}
-
-/// Why a quantity is conserved.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Conservation {
-    /// Not examined so far.
-    Unknown,
-    /// ∂ₜψ + ∇ψ·f = 0 was proved, wherever the conditions hold.
-    Proved(Vec<DomainCondition>),
-    /// It is a Hamiltonian without explicit time, and f was made from it.
-    ByConstruction,
-    /// It could not be proved, and `assume` accepts it.
-    Assumed {
-        /// The number of points at which ∂ₜψ + ∇ψ·f was evaluated.
-        points: usize,
-        /// The largest |∂ₜψ + ∇ψ·f| there, relative to the size of its terms.
-        largest: f64,
-    },
-}
-
-/// What has to hold for a proof to hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum DomainCondition {
-    /// u > 0
-    Positive(Id),
-    /// u ≥ 0
-    NotNegative(Id),
-    /// u ≠ 0
-    NonZero(Id),
-    /// −1 ≤ u ≤ 1
-    WithinOne(Id),
-}
-
-impl DomainCondition {
-    /// As text: `x > 0`
-    pub fn statement(self, dag: &Dag) -> String {
-        match self {
-            Self::Positive(u) => format!("{} > 0", to_text(dag, u)),
-            Self::NotNegative(u) => format!("{} ≥ 0", to_text(dag, u)),
-            Self::NonZero(u) => format!("{} ≠ 0", to_text(dag, u)),
-            Self::WithinOne(u) => format!("|{}| ≤ 1", to_text(dag, u)),
-        }
-    }
-}
-
-/// What is known of the independence of the ψ of a region, the rank of Λ = ∇ψ.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub enum Independence {
-    /// There is no ψ, or it was not examined so far.
-    #[default]
-    Nothing,
-    /// The gradients are dependent exactly where every one of `factors` and `minors` says so:
-    /// each M×M minor of Λ is the product of the common `factors` and of one of `minors`, so
-    /// that the rank falls where a factor is zero, or all of `minors` are.
-    Proved {
-        /// The common factors that can vanish.
-        factors: Vec<Id>,
-        /// The cofactors, without those that are identically zero; empty if one of them is a
-        /// constant.
-        minors: Vec<Id>,
-    },
-    /// A minor is not zero at a point, so that the rank is M at generic points; the set where
-    /// it falls was not found.
-    Generic,
 }
 
 impl Model {

@@ -183,7 +183,7 @@ impl<'a> Derivative<'a> {
             Math::Pow([u, v]) => self.power(dag, id, u, v),
             Math::Call(function, u) => {
                 let du = self.child(u)?;
-                let outer = call_derivative(dag, function, id, u);
+                let outer = function.derivative(dag, u);
                 dag.mul(outer, du)
             }
             Math::Pair(function, [a, b]) => {
@@ -226,110 +226,22 @@ fn sum(dag: &mut Dag, first: Option<Id>, second: Option<Id>) -> Id {
     }
 }
 
-/// h′(u) where `id` is h(u).
-fn call_derivative(dag: &mut Dag, function: Function, id: Id, u: Id) -> Id {
-    use Function::*;
-    let one = dag.integer(1);
-    match function {
-        Sqrt => {
-            let half = dag.fraction(1, 2);
-            dag.div(half, id)
-        }
-        Exp => id,
-        Ln => dag.div(one, u),
-        Sin => dag.call(Cos, u),
-        Cos => {
-            let sine = dag.call(Sin, u);
-            dag.neg(sine)
-        }
-        Tan => {
-            let square = dag.powi(id, 2);
-            dag.add(one, square)
-        }
-        Sinh => dag.call(Cosh, u),
-        Cosh => dag.call(Sinh, u),
-        // 1 − tanh² would cancel where tanh is close to ±1
-        Tanh => {
-            let cosh = dag.call(Cosh, u);
-            let square = dag.powi(cosh, 2);
-            dag.div(one, square)
-        }
-        Asin => arc_derivative(dag, PairFunction::AsinDd, u),
-        Acos => {
-            let asin = arc_derivative(dag, PairFunction::AsinDd, u);
-            dag.neg(asin)
-        }
-        Atan => arc_derivative(dag, PairFunction::AtanDd, u),
-        Abs => dag.div(u, id),
-        Sinc => dag.call(SincPrime, u),
-        Sinhc => dag.call(SinhcPrime, u),
-        // sinc″ = −sinc − 2 sinc′/u, sinhc″ = sinhc − 2 sinhc′/u
-        SincPrime | SinhcPrime => {
-            let two = dag.integer(2);
-            let doubled = dag.mul(two, id);
-            let quotient = dag.div(doubled, u);
-            if function == SincPrime {
-                let sinc = dag.call(Sinc, u);
-                let sum = dag.add(sinc, quotient);
-                dag.neg(sum)
-            } else {
-                let sinhc = dag.call(Sinhc, u);
-                dag.sub(sinhc, quotient)
-            }
-        }
-    }
-}
-
-/// h′(u) of the function h whose divided difference is `function`.
-pub(super) fn arc_derivative(dag: &mut Dag, function: PairFunction, u: Id) -> Id {
-    use PairFunction::*;
-    let one = dag.integer(1);
-    match function {
-        LnDd | LnDdPrime => dag.div(one, u),
-        AsinDd | AsinDdPrime => {
-            let square = dag.powi(u, 2);
-            let difference = dag.sub(one, square);
-            let root = dag.sqrt(difference);
-            dag.div(one, root)
-        }
-        AtanDd | AtanDdPrime => {
-            let square = dag.powi(u, 2);
-            let sum = dag.add(one, square);
-            dag.div(one, sum)
-        }
-    }
-}
-
-/// h″(u), from h′(u): −h′² for ln, u·h′³ for asin, −2u·h′² for atan.
+/// h″(u) = c·uᵏ·h′(u)ᵖ of the function h whose divided difference is `function`.
 fn second_derivative(dag: &mut Dag, function: PairFunction, u: Id) -> Id {
-    use PairFunction::*;
-    let first = arc_derivative(dag, function, u);
-    let square = dag.powi(first, 2);
-    match function {
-        LnDd | LnDdPrime => dag.neg(square),
-        AsinDd | AsinDdPrime => {
-            let cube = dag.powi(first, 3);
-            dag.mul(u, cube)
-        }
-        AtanDd | AtanDdPrime => {
-            let two = dag.integer(2);
-            let doubled = dag.mul(two, u);
-            let product = dag.mul(doubled, square);
-            dag.neg(product)
-        }
-    }
+    let (c, k, p) = function.properties().second;
+    let first = function.of().derivative(dag, u);
+    let [c, power, slopes] = [
+        dag.integer(c),
+        dag.powi(u, k.into()),
+        dag.powi(first, p.into()),
+    ];
+    let product = dag.mul(c, power);
+    dag.mul(product, slopes)
 }
 
 /// The derivatives of `function(a, b)` in a and in b.
 fn pair_derivatives(dag: &mut Dag, function: PairFunction, a: Id, b: Id) -> [Id; 2] {
-    use PairFunction::*;
-    let prime = match function {
-        LnDd => Some(LnDdPrime),
-        AsinDd => Some(AsinDdPrime),
-        AtanDd => Some(AtanDdPrime),
-        LnDdPrime | AsinDdPrime | AtanDdPrime => None,
-    };
-    if let Some(prime) = prime {
+    if let Some(prime) = function.prime() {
         return [dag.pair(prime, b, a), dag.pair(prime, a, b)];
     }
     let difference = dag.sub(b, a);

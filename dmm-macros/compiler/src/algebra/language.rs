@@ -11,6 +11,8 @@ use std::sync::Arc;
 use egg::{FromOp, FromOpError, Id, Language};
 use num_rational::BigRational;
 
+use super::functions::{Function, PairFunction};
+
 /// A node of an expression: an operation on other nodes of the same [`Dag`](super::Dag).
 ///
 /// Not made by egg's `define_language!`, for the sake of the hash: that of a [`Rational`] is
@@ -200,110 +202,5 @@ impl FromStr for Name {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         Ok(Self::new(text))
-    }
-}
-
-/// Writes an enumeration of functions together with the names that `egg` and the listing use.
-macro_rules! functions {
-    ($(#[$meta:meta])* $enum:ident { $($(#[$doc:meta])* $variant:ident = $name:literal,)* }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-        pub enum $enum { $($(#[$doc])* $variant,)* }
-
-        impl $enum {
-            /// Every function of this kind.
-            pub const ALL: &[$enum] = &[$($enum::$variant),*];
-
-            /// The name that the language, the listing and the runtime's scalars use.
-            pub fn name(self) -> &'static str {
-                match self { $($enum::$variant => $name,)* }
-            }
-        }
-
-        impl fmt::Display for $enum {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(self.name())
-            }
-        }
-
-        impl FromStr for $enum {
-            type Err = String;
-
-            fn from_str(text: &str) -> Result<Self, String> {
-                match text {
-                    $($name => Ok($enum::$variant),)*
-                    _ => Err(format!("no function `{text}`")),
-                }
-            }
-        }
-    };
-}
-
-functions! {
-    /// Functions of one argument.
-    Function {
-        /// √u
-        Sqrt = "sqrt",
-        /// eᵘ
-        Exp = "exp",
-        /// Natural logarithm.
-        Ln = "ln",
-        /// Sine.
-        Sin = "sin",
-        /// Cosine.
-        Cos = "cos",
-        /// Tangent.
-        Tan = "tan",
-        /// Hyperbolic sine.
-        Sinh = "sinh",
-        /// Hyperbolic cosine.
-        Cosh = "cosh",
-        /// Hyperbolic tangent.
-        Tanh = "tanh",
-        /// Arc sine, in [−π/2, π/2].
-        Asin = "asin",
-        /// Arc cosine, in [0, π].
-        Acos = "acos",
-        /// Arc tangent, in (−π/2, π/2).
-        Atan = "atan",
-        /// |u|; of the compiler's own, for the size of a sum's terms.
-        Abs = "abs",
-        /// sin(u)/u, 1 at 0.
-        Sinc = "sinc",
-        /// The derivative of `sinc`.
-        SincPrime = "sinc_prime",
-        /// sinh(u)/u, 1 at 0.
-        Sinhc = "sinhc",
-        /// The derivative of `sinhc`.
-        SinhcPrime = "sinhc_prime",
-    }
-}
-
-functions! {
-    /// Functions of two arguments: divided differences (h(u₁) − h(u₀))/(u₁ − u₀), with the
-    /// value h′(u) where the arguments coincide, and their derivatives in the second
-    /// argument. A divided difference is symmetric, so that its derivative in the first
-    /// argument is the same function with the arguments exchanged.
-    PairFunction {
-        /// Of the natural logarithm.
-        LnDd = "ln_dd",
-        /// ∂ ln_dd(a, b)/∂b
-        LnDdPrime = "ln_dd_prime",
-        /// Of the arc sine.
-        AsinDd = "asin_dd",
-        /// ∂ asin_dd(a, b)/∂b
-        AsinDdPrime = "asin_dd_prime",
-        /// Of the arc tangent.
-        AtanDd = "atan_dd",
-        /// ∂ atan_dd(a, b)/∂b
-        AtanDdPrime = "atan_dd_prime",
-    }
-}
-
-impl Function {
-    /// Whether a declaration may call this function.
-    pub fn is_declarable(self) -> bool {
-        use Function::*;
-        !matches!(self, Abs | Sinc | SincPrime | Sinhc | SinhcPrime)
     }
 }

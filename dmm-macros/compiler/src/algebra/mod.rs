@@ -6,7 +6,9 @@ pub mod differentiate;
 pub mod display;
 pub mod divided_difference;
 pub mod evaluate;
+mod functions;
 mod language;
+pub mod linear;
 pub mod normal_form;
 mod work;
 
@@ -19,7 +21,9 @@ pub use display::to_text;
 pub use divided_difference::{at_end, at_midpoint, at_start, divided_difference};
 pub use egg::Id;
 pub use evaluate::{evaluate, evaluate_bounded};
-pub use language::{Function, Math, Name, PairFunction, Rational};
+pub(crate) use functions::{Domain, Equation};
+pub use functions::{Function, Latex, PairFunction};
+pub use language::{Math, Name, Rational};
 pub use normal_form::{
     Counterexample, Quotient, Verdict, decide_zero, divide_exactly, is_proved_zero, normalise,
 };

@@ -6,11 +6,11 @@ use proc_macro2::Ident;
 use quote::format_ident;
 
 use super::names::Kind;
-use super::{Resolver, Scope};
+use super::{Allowed, Resolver};
 use crate::algebra::Id;
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::check as codes;
-use crate::model::{Claim, Conservation, Conserved};
+use crate::model::{Claim, Conserved};
 use crate::syntax::{ConservedItem, Definition, Derivative, Item};
 
 /// A vector field and its conserved quantities while they are read.
@@ -76,8 +76,9 @@ impl<'d> Resolver<'d> {
     pub(super) fn items(&mut self, items: &[&'d Item], body: &mut Body) {
         for item in items {
             if let Item::Let(definition) = item {
-                self.names
-                    .declare_in_region(&definition.ident, self.diagnostics);
+                self.scope
+                    .names
+                    .declare_in_region(&definition.ident, self.reporter.diagnostics);
             }
         }
         items.iter().for_each(|item| self.item(item, body));
@@ -86,7 +87,7 @@ impl<'d> Resolver<'d> {
     /// An item of a region, or of a loop in it.
     pub(super) fn item(&mut self, item: &'d Item, body: &mut Body) {
         match item {
-            Item::Let(definition) => self.define(definition, Kind::Let, Scope::All),
+            Item::Let(definition) => self.define(definition, Kind::Let, Allowed::All),
             Item::Derivative(item) => self.derivative(item, body),
             Item::Conserved(item) => self.conserved(item, body),
             Item::Hamiltonian(item) => self.hamiltonian(item, body),
@@ -102,10 +103,10 @@ impl<'d> Resolver<'d> {
     }
 
     fn derivative(&mut self, item: &'d Derivative, body: &mut Body) {
-        let formula = self.formula(&item.formula, Scope::All);
+        let formula = self.formula(&item.formula, Allowed::All);
         let rate = formula.map(|formula| (formula.id, item.formula.extent));
         let found = self.target(&item.target, false, body);
-        if self.is_rehearsal && found.is_right && !self.is_quiet {
+        if self.scope.names.is_rehearsal() && found.is_right && !self.reporter.is_quiet {
             return;
         }
         for state in found.states {
@@ -115,14 +116,14 @@ impl<'d> Resolver<'d> {
                 guess(body, state);
             }
         }
-        if self.is_quiet {
+        if self.reporter.is_quiet {
             // a loop that is wrong was probably meant to give all of them
             self.guess_group(&item.target.ident.to_string(), body);
         }
     }
 
     fn guess_group(&self, group: &str, body: &mut Body) {
-        if let Some(&(first, count)) = self.state_groups.get(group) {
+        if let Some(&(first, count)) = self.regions.state_groups.get(group) {
             (first..first + count.unwrap_or(1)).for_each(|state| guess(body, state));
         }
     }
@@ -145,7 +146,7 @@ impl<'d> Resolver<'d> {
                 let earlier = earlier.clone();
                 self.given_twice(body, state, &earlier, hamiltonian, place);
                 // another element was meant, probably
-                if let Some(ident) = self.states.get(state).map(|state| &state.ident) {
+                if let Some(ident) = self.regions.states.get(state).map(|state| &state.ident) {
                     self.guess_group(&ident.to_string(), body);
                 }
             }
@@ -168,10 +169,15 @@ impl<'d> Resolver<'d> {
         hamiltonian: Option<&str>,
         place: Extent,
     ) {
-        if self.is_quiet {
+        if self.reporter.is_quiet {
             return;
         }
-        let Some(name) = self.states.get(state).map(|state| state.name.clone()) else {
+        let Some(name) = self
+            .regions
+            .states
+            .get(state)
+            .map(|state| state.name.clone())
+        else {
             return;
         };
         let shared = if earlier.is_shared && body.region.is_some() {
@@ -179,10 +185,10 @@ impl<'d> Resolver<'d> {
         } else {
             ""
         };
-        if !shared.is_empty() && !self.repeated.insert(format!("der({name})")) {
+        if !shared.is_empty() && !self.reporter.repeated.insert(format!("der({name})")) {
             return;
         }
-        let within = format!("{}{}", body.within(), self.turn(", with"));
+        let within = format!("{}{}", body.within(), self.scope.turn(", with"));
         let (code, message) = match (earlier.hamiltonian.as_deref(), hamiltonian) {
             (None, None) if shared.is_empty() => (
                 codes::DERIVATIVE_TWICE,
@@ -223,8 +229,8 @@ impl<'d> Resolver<'d> {
     }
 
     fn conserved(&mut self, item: &'d ConservedItem, body: &mut Body) {
-        let formula = self.formula(&item.definition.formula, Scope::All);
-        if self.is_rehearsal {
+        let formula = self.formula(&item.definition.formula, Allowed::All);
+        if self.scope.names.is_rehearsal() {
             return;
         }
         let Some(ident) = self.new_quantity(&item.definition, body) else {
@@ -244,14 +250,16 @@ impl<'d> Resolver<'d> {
     /// (`energy_2`), if there is none of that name in `body`.
     pub(super) fn new_quantity(&mut self, item: &Definition, body: &mut Body) -> Option<Ident> {
         let mut ident = item.ident.clone();
-        for (_, value) in self.names.counters() {
+        for (_, value) in self.scope.names.counters() {
             let sign = if value < 0.0 { "minus" } else { "" };
             ident = format_ident!("{ident}_{sign}{}", value.abs().to_string());
         }
         let is_shared = body.region.is_none();
         let (code, message) = match body.seen.insert(ident.to_string(), is_shared) {
             None => return Some(ident),
-            Some(true) if !is_shared && !self.repeated.insert(ident.to_string()) => return None,
+            Some(true) if !is_shared && !self.reporter.repeated.insert(ident.to_string()) => {
+                return None;
+            }
             Some(true) if !is_shared => (
                 codes::ALREADY_SHARED,
                 format!(
@@ -286,7 +294,6 @@ pub(super) fn add_quantity(
         psi,
         span: item.formula.extent,
         claim,
-        evidence: Conservation::Unknown,
     });
 }
 

@@ -4,35 +4,24 @@
 //! without variables its floating-point value is carried, so that ln(−1), 1/0 or exp(1000) is
 //! found where it stands, and not by a trajectory that ends in NaN.
 
-use std::collections::BTreeSet;
-
-use super::number::{self, Problem};
-use super::{Resolver, Scope, Value};
-use crate::algebra::{Id, Math, Rational, is_proved_zero};
+use super::evaluator::NodeProblem;
+use super::number;
+use super::{Allowed, Resolver, Value};
+use crate::algebra::is_proved_zero;
 use crate::diagnostics::catalogue::check as codes;
 use crate::syntax::{Expression, ExpressionKind, Operator};
 
-/// Formulas within functions within functions may be nested this deep in all.
-const DEEPEST: usize = 600;
 /// Divisors of more nodes are not examined for being zero.
 const LARGEST_DIVISOR: usize = 1_000;
 /// The work of the proof that a divisor is zero, in nodes.
 const PROOF: usize = 200;
 
-/// What is wrong with a node of a formula.
-enum NodeProblem {
-    /// Whatever it is a part of.
-    Wrong(Problem),
-    /// It is nested too deeply to be derived from.
-    TooNested,
-}
-
 impl<'d> Resolver<'d> {
     /// The node of `formula`. All that is wrong is reported; nothing is returned if something
     /// was.
-    pub(super) fn formula(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
-        let value = self.expression(formula, scope)?;
-        match self.node_problem(value.id) {
+    pub(super) fn formula(&mut self, formula: &'d Expression, allowed: Allowed) -> Option<Value> {
+        let value = self.expression(formula, allowed)?;
+        match self.evaluator.node_problem(value.id) {
             None => Some(value),
             Some(NodeProblem::Wrong((code, message))) => {
                 self.report(code, formula.extent, message);
@@ -49,76 +38,54 @@ impl<'d> Resolver<'d> {
         }
     }
 
-    /// What is wrong with a node below `root`; those that were examined before are in order.
-    fn node_problem(&mut self, root: Id) -> Option<NodeProblem> {
-        self.levels.resize(self.dag.len(), 0);
-        let is_new = |levels: &[usize], id: Id| levels.get(usize::from(id)) == Some(&0);
-        let mut stack = vec![root];
-        let mut reached = BTreeSet::new();
-        while let Some(id) = stack.pop() {
-            if is_new(&self.levels, id) && reached.insert(id) {
-                stack.extend_from_slice(egg::Language::children(&self.dag[id]));
-            }
-        }
-        // operands come before what is made of them
-        for id in reached {
-            let level = number::level(&self.dag, id, &self.levels);
-            if let Some(problem) = number::node_problem(&self.dag, id) {
-                return Some(NodeProblem::Wrong(problem));
-            }
-            if level > number::MOST_LEVELS {
-                return Some(NodeProblem::TooNested);
-            }
-            if let Some(known) = self.levels.get_mut(usize::from(id)) {
-                *known = level;
-            }
-        }
-        None
-    }
-
     /// The node of a part of a formula.
-    pub(super) fn expression(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
+    pub(super) fn expression(
+        &mut self,
+        formula: &'d Expression,
+        allowed: Allowed,
+    ) -> Option<Value> {
         self.spend(1, formula)?;
-        if self.depth >= DEEPEST {
+        if self.budget.enter().is_none() {
             self.too_long(formula, "its functions and sums are nested too deeply");
             return None;
         }
-        self.depth += 1;
-        let value = self.kind(formula, scope);
-        self.depth -= 1;
+        let value = self.kind(formula, allowed);
+        self.budget.leave();
         value
     }
 
-    fn kind(&mut self, formula: &'d Expression, scope: Scope) -> Option<Value> {
+    fn kind(&mut self, formula: &'d Expression, allowed: Allowed) -> Option<Value> {
         match &formula.kind {
-            ExpressionKind::Number { value, .. } => Some(self.constant(value)),
-            ExpressionKind::Name(ident) => self.name(ident, scope),
-            ExpressionKind::Parenthesised(inner) => self.expression(inner, scope),
-            ExpressionKind::Element { group, index } => self.element(formula, group, index, scope),
+            ExpressionKind::Number { value, .. } => Some(self.evaluator.constant(value)),
+            ExpressionKind::Name(ident) => self.name(ident, allowed),
+            ExpressionKind::Parenthesised(inner) => self.expression(inner, allowed),
+            ExpressionKind::Element { group, index } => {
+                self.element(formula, group, index, allowed)
+            }
             ExpressionKind::Sum {
                 variable,
                 range,
                 term,
-            } => self.sum(formula, variable, range, term, scope),
+            } => self.sum(formula, variable, range, term, allowed),
             ExpressionKind::Negative(operand) => {
-                let operand = self.expression(operand, scope)?;
+                let operand = self.expression(operand, allowed)?;
                 Some(Value {
-                    id: self.dag.neg(operand.id),
+                    id: self.evaluator.dag.neg(operand.id),
                     number: operand.number.map(|number| -number),
                 })
             }
             ExpressionKind::Call {
                 function,
                 arguments,
-            } => self.call(formula, function, arguments, scope),
+            } => self.call(formula, function, arguments, allowed),
             ExpressionKind::Binary {
                 operator,
                 left,
                 right,
             } => {
                 // both, so that errors on both sides are found
-                let of_left = self.expression(left, scope);
-                let of_right = self.expression(right, scope);
+                let of_left = self.expression(left, allowed);
+                let of_right = self.expression(right, allowed);
                 let (left, value) = (of_left?, of_right?);
                 if *operator == Operator::Divide && self.is_zero(value, right)? {
                     self.division_by_zero(formula, right);
@@ -126,14 +93,6 @@ impl<'d> Resolver<'d> {
                 }
                 self.operation(formula, *operator, left, value)
             }
-        }
-    }
-
-    /// An exact constant.
-    pub(super) fn constant(&mut self, value: &Rational) -> Value {
-        Value {
-            id: self.dag.constant(value.clone()),
-            number: Some(number::double(value)),
         }
     }
 
@@ -148,47 +107,24 @@ impl<'d> Resolver<'d> {
         if operator == Operator::Remainder {
             return self.remainder(formula, left, right);
         }
-        let both = left.number.zip(right.number);
-        let number = both.map(|(left, right)| number::operation(operator, left, right));
-        let problem = match (number, both) {
-            (Some(number), Some((left, right))) if !number.is_finite() => {
-                Some(number::operation_problem(operator, left, right))
-            }
-            _ if operator == Operator::Power => number::power_problem(&self.dag, left, right),
-            _ => number::size_problem(&self.dag, left, right),
-        };
-        if let Some((code, message)) = problem
+        if let Some((code, message)) = self.evaluator.operation_problem(operator, left, right)
             // an argument that is not known yet may turn out to be a number
-            && !self.is_unknown(left.id)
-            && !self.is_unknown(right.id)
+            && !self.evaluator.is_unknown(left.id)
+            && !self.evaluator.is_unknown(right.id)
         {
             self.report_turn(code, formula.extent, message);
             return None;
         }
-        self.spend(number::work(&self.dag, left, right), formula)?;
-        let dag = &mut self.dag;
-        let id = match operator {
-            Operator::Add => dag.add(left.id, right.id),
-            Operator::Subtract => dag.sub(left.id, right.id),
-            Operator::Multiply => dag.mul(left.id, right.id),
-            Operator::Divide => dag.div(left.id, right.id),
-            // its exact value would be too long
-            _ if number::is_long_power(dag, left, right) => {
-                dag.insert(Math::Pow([left.id, right.id]))
-            }
-            _ => dag.pow(left.id, right.id),
-        };
-        // 0·x and x^0 are numbers; an exact value is better than what was carried along
-        let number = match dag.as_constant(id) {
-            Some(value) => Some(number::double(value)),
-            None => number,
-        };
-        Some(Value { id, number })
+        self.spend(number::work(&self.evaluator.dag, left, right), formula)?;
+        Some(self.evaluator.operation(operator, left, right))
     }
 
     /// `left % right`, of integers.
     fn remainder(&mut self, formula: &'d Expression, left: Value, right: Value) -> Option<Value> {
-        let (a, b) = (self.dag.as_integer(left.id), self.dag.as_integer(right.id));
+        let (a, b) = (
+            self.evaluator.dag.as_integer(left.id),
+            self.evaluator.dag.as_integer(right.id),
+        );
         if let (Some(a), Some(b)) = (a, b) {
             let Some(remainder) = a.checked_rem_euclid(b) else {
                 let message = format!("`{formula}` divides by zero");
@@ -196,11 +132,11 @@ impl<'d> Resolver<'d> {
                 return None;
             };
             return Some(Value {
-                id: self.dag.integer(remainder),
+                id: self.evaluator.dag.integer(remainder),
                 number: Some(remainder as f64),
             });
         }
-        if let Some(unknown) = self.unknown_among(&[left.id, right.id]) {
+        if let Some(unknown) = self.evaluator.unknown_among(&[left.id, right.id]) {
             return Some(unknown);
         }
         let message = format!(
@@ -213,22 +149,16 @@ impl<'d> Resolver<'d> {
     /// Whether a divisor is zero whatever the variables are; nothing is returned if that is
     /// too much to find out.
     fn is_zero(&mut self, divisor: Value, place: &Expression) -> Option<bool> {
-        if self.dag.as_constant(divisor.id).is_some() {
-            return Some(self.dag.is_zero(divisor.id));
-        }
-        if self.samples.is_not_zero(&self.dag, divisor.id) {
-            return Some(false);
-        }
-        if let Some(&known) = self.divisors.get(&divisor.id) {
+        if let Some(known) = self.evaluator.is_known_zero(divisor.id) {
             return Some(known);
         }
-        let size = self.dag.reachable([divisor.id]).len();
+        let size = self.evaluator.dag.reachable([divisor.id]).len();
         let mut is_zero = false;
         if size <= LARGEST_DIVISOR {
             self.spend(PROOF + 10 * size, place)?;
-            is_zero = is_proved_zero(&self.dag, divisor.id);
+            is_zero = is_proved_zero(&self.evaluator.dag, divisor.id);
         }
-        self.divisors.insert(divisor.id, is_zero);
+        self.evaluator.divisors.insert(divisor.id, is_zero);
         Some(is_zero)
     }
 

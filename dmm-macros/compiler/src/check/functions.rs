@@ -12,8 +12,8 @@ use proc_macro2::Ident;
 use super::advice::advice;
 use super::names::{Kind, Meaning, is_meant_to_be_unused};
 use super::number::{self, Problem};
-use super::{Resolver, Scope, Value};
-use crate::algebra::{Function, Id, Name};
+use super::{Allowed, Resolver, Value};
+use crate::algebra::{Function, Id};
 use crate::diagnostics::catalogue::check as codes;
 use crate::syntax::{Expression, FunctionItem};
 
@@ -21,36 +21,38 @@ impl<'d> Resolver<'d> {
     /// `fn name(arguments) = formula`
     pub(super) fn function(&mut self, item: &'d FunctionItem) {
         let ident = &item.definition.ident;
-        let before = self.diagnostics.len();
-        self.names.enter_function();
+        let before = self.reporter.diagnostics.len();
+        self.scope.names.enter_function();
         for argument in &item.arguments {
-            if let Some((code, message)) = self.names.argument_problem(argument) {
+            if let Some((code, message)) = self.scope.names.argument_problem(argument) {
                 self.report(code, argument, message);
             }
-            let value = self.unknown();
-            self.names.push_local(argument, Kind::Argument, value);
+            let value = self.evaluator.unknown();
+            self.scope.names.push_local(argument, Kind::Argument, value);
         }
-        self.defining = Some(ident.to_string());
-        let is_right = self.formula(&item.definition.formula, Scope::All).is_some();
-        self.defining = None;
-        let is_right = is_right && self.diagnostics.len() == before;
+        self.scope.defining = Some(ident.to_string());
+        let is_right = self
+            .formula(&item.definition.formula, Allowed::All)
+            .is_some();
+        self.scope.defining = None;
+        let is_right = is_right && self.reporter.diagnostics.len() == before;
         for argument in item.arguments.iter().rev() {
-            let is_used = self.names.pop_local();
+            let is_used = self.scope.names.pop_local();
             if is_right && !is_used && !is_meant_to_be_unused(argument) {
                 let message =
                     format!("the argument `{argument}` of `{ident}` is never used; remove it");
                 self.report(codes::UNUSED, argument, message);
             }
         }
-        self.names.leave_function();
-        if self.names.is_first(ident, Kind::Function) {
-            self.functions.insert(ident.to_string(), item);
+        self.scope.names.leave_function();
+        if self.scope.names.is_first(ident, Kind::Function) {
+            self.scope.functions.insert(ident.to_string(), item);
             let meaning = if is_right {
                 Meaning::Function
             } else {
                 Meaning::Wrong
             };
-            self.names.set(ident, meaning);
+            self.scope.names.set(ident, meaning);
         }
     }
 
@@ -60,11 +62,11 @@ impl<'d> Resolver<'d> {
         formula: &'d Expression,
         function: &'d Ident,
         arguments: &'d [Expression],
-        scope: Scope,
+        allowed: Allowed,
     ) -> Option<Value> {
         let values: Vec<Option<Value>> = arguments
             .iter()
-            .map(|argument| self.expression(argument, scope))
+            .map(|argument| self.expression(argument, allowed))
             .collect();
         let text = function.to_string();
         let built_in = text.parse::<Function>().ok();
@@ -72,7 +74,7 @@ impl<'d> Resolver<'d> {
             return self.built_in(formula, known, &values);
         }
         if self.callable(function, &text, arguments)? {
-            self.declared(formula, &text, &values, scope)
+            self.declared(formula, &text, &values, allowed)
         } else {
             None
         }
@@ -104,7 +106,7 @@ impl<'d> Resolver<'d> {
             return None;
         }
         Some(Value {
-            id: self.dag.call(function, argument.id),
+            id: self.evaluator.dag.call(function, argument.id),
             number,
         })
     }
@@ -112,13 +114,15 @@ impl<'d> Resolver<'d> {
     /// Whether `function` is a declared function that can be called; nothing is returned where
     /// something was reported.
     fn callable(&mut self, function: &Ident, text: &str, arguments: &[Expression]) -> Option<bool> {
-        let symbol = self.names.get(text);
+        let symbol = self.scope.names.get(text);
         let (code, message): Problem = match symbol.map(|symbol| (symbol.kind, &symbol.meaning)) {
             Some((Kind::Function, Meaning::Function)) => {
-                self.names.mark_used(text);
+                self.scope.names.mark_used(text);
                 return Some(true);
             }
-            Some((Kind::Function, Meaning::Ahead)) if self.defining.as_deref() == Some(text) => {
+            Some((Kind::Function, Meaning::Ahead))
+                if self.scope.defining.as_deref() == Some(text) =>
+            {
                 let message = format!(
                     "`{text}` is used before it is declared: a function cannot call itself"
                 );
@@ -130,7 +134,7 @@ impl<'d> Resolver<'d> {
                 (codes::USED_TOO_EARLY, message)
             }
             Some((Kind::Function, _)) => {
-                self.names.mark_used(text);
+                self.scope.names.mark_used(text);
                 return Some(false);
             }
             Some((Kind::State, _)) if matches!(arguments, [argument] if is_time(argument)) => {
@@ -148,15 +152,15 @@ impl<'d> Resolver<'d> {
                 );
                 (codes::NOT_A_FUNCTION, message)
             }
-            None if self.names.is_refused(text) => return None,
+            None if self.scope.names.is_refused(text) => return None,
             None => {
-                if let Some(meant) = self.names.closest(text, &[Kind::Function]) {
-                    self.names.mark_used(&meant);
+                if let Some(meant) = self.scope.names.closest(text, &[Kind::Function]) {
+                    self.scope.names.mark_used(&meant);
                 }
-                advice(text, self.names.functions())
+                advice(text, self.scope.names.functions())
             }
         };
-        self.names.mark_used(text);
+        self.scope.names.mark_used(text);
         self.report(code, function, message);
         None
     }
@@ -167,14 +171,14 @@ impl<'d> Resolver<'d> {
         formula: &'d Expression,
         text: &str,
         arguments: &[Option<Value>],
-        scope: Scope,
+        allowed: Allowed,
     ) -> Option<Value> {
-        let item = *self.functions.get(text)?;
+        let item = *self.scope.functions.get(text)?;
         if arguments.len() != item.arguments.len() {
             let message = format!(
                 "`{text}` takes {}, as in `{}`, not {}",
                 super::groups::counted(item.arguments.len(), "argument"),
-                self.signature(text),
+                self.scope.signature(text),
                 arguments.len()
             );
             self.report(codes::NUMBER_OF_ARGUMENTS, formula.extent, message);
@@ -182,9 +186,9 @@ impl<'d> Resolver<'d> {
         }
         let arguments: Vec<Value> = arguments.iter().copied().collect::<Option<_>>()?;
         let value = self.written_out(formula, item, &arguments)?;
-        if let Scope::Constant(what) = scope
+        if let Allowed::Constant(what) = allowed
             && value.number.is_none()
-            && !self.is_unknown(value.id)
+            && !self.evaluator.is_unknown(value.id)
         {
             let message = format!("{what} cannot depend on `{formula}`, which varies");
             self.report(codes::NOT_CONSTANT, formula.extent, message);
@@ -202,54 +206,19 @@ impl<'d> Resolver<'d> {
     ) -> Option<Value> {
         let ids: Vec<Id> = arguments.iter().map(|argument| argument.id).collect();
         let key = (item.definition.ident.to_string(), ids);
-        if let Some(&known) = self.calls_known.get(&key) {
+        if let Some(&known) = self.scope.calls_known.get(&key) {
             return known;
         }
-        self.names.enter_function();
+        self.scope.names.enter_function();
         for (ident, &value) in item.arguments.iter().zip(arguments) {
-            self.names.push_local(ident, Kind::Argument, value);
+            self.scope.names.push_local(ident, Kind::Argument, value);
         }
-        self.calls.push(call);
-        let value = self.expression(&item.definition.formula, Scope::All);
-        self.calls.pop();
-        self.names.leave_function();
-        self.calls_known.insert(key, value);
+        self.scope.calls.push(call);
+        let value = self.expression(&item.definition.formula, Allowed::All);
+        self.scope.calls.pop();
+        self.scope.names.leave_function();
+        self.scope.calls_known.insert(key, value);
         value
-    }
-
-    /// How a declared function is called: `V(q, k)`.
-    pub(super) fn signature(&self, text: &str) -> String {
-        let arguments = match self.functions.get(text) {
-            Some(item) => {
-                let names: Vec<String> = item.arguments.iter().map(Ident::to_string).collect();
-                names.join(", ")
-            }
-            None => "…".into(),
-        };
-        format!("{text}({arguments})")
-    }
-
-    /// A value of which nothing is known so far: that of an argument in the formula of a
-    /// function, or what depends on it.
-    pub(super) fn unknown(&mut self) -> Value {
-        // no identifier of a declaration has a space
-        let name = Name::new(&format!("unknown {}", self.unknowns.len()));
-        let id = self.dag.variable(&name);
-        self.unknowns.insert(id);
-        Value { id, number: None }
-    }
-
-    /// Whether `id` depends on anything unknown.
-    pub(super) fn is_unknown(&self, id: Id) -> bool {
-        !self.unknowns.is_empty()
-            && (self.unknowns.contains(&id)
-                || (self.dag.reachable([id]).iter()).any(|node| self.unknowns.contains(node)))
-    }
-
-    /// An unknown value if one of `ids` is unknown.
-    pub(super) fn unknown_among(&mut self, ids: &[Id]) -> Option<Value> {
-        let is_unknown = ids.iter().any(|&id| self.is_unknown(id));
-        is_unknown.then(|| self.unknown())
     }
 }
 

@@ -4,7 +4,7 @@
 use proc_macro2::Ident;
 
 use super::names::{Kind, Meaning};
-use super::{Resolver, Scope, Value};
+use super::{Allowed, Resolver, Value};
 use crate::algebra::{Id, Name};
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::check as codes;
@@ -29,27 +29,28 @@ impl<'d> Resolver<'d> {
     /// `state x`, `state q[3]`
     pub(super) fn state(&mut self, group: &'d Group) {
         let count = self.length(group, MOST_STATES);
-        if !self.names.is_first(&group.ident, Kind::State) {
+        if !self.scope.names.is_first(&group.ident, Kind::State) {
             return;
         }
         let Some(count) = count else {
             return self.refuse(&group.ident);
         };
-        let first = self.states.len();
-        self.state_groups
+        let first = self.regions.states.len();
+        self.regions
+            .state_groups
             .insert(group.ident.to_string(), (first, count));
         let mut values = Vec::new();
         for (element, name) in elements(&group.ident, count) {
-            let id = self.dag.variable(&name);
+            let id = self.evaluator.dag.variable(&name);
             values.push(Value { id, number: None });
-            self.states.push(State {
+            self.regions.states.push(State {
                 attributes: group.attributes.clone(),
                 ident: group.ident.clone(),
                 element,
                 name,
             });
         }
-        self.names.set(&group.ident, meaning(count, values));
+        self.scope.names.set(&group.ident, meaning(count, values));
     }
 
     /// `param k = 1`, `param m[3] = 1`, `param m[3] = [1, 2, 3]`
@@ -57,7 +58,7 @@ impl<'d> Resolver<'d> {
         let group = &item.group;
         let count = self.length(group, MOST_PARAMETERS);
         let defaults = self.defaults(item, count);
-        if !self.names.is_first(&group.ident, Kind::Parameter) {
+        if !self.scope.names.is_first(&group.ident, Kind::Parameter) {
             return;
         }
         let Some(count) = count else {
@@ -66,10 +67,10 @@ impl<'d> Resolver<'d> {
         let mut values = Vec::new();
         let mut defaults = defaults.into_iter().flatten();
         for (element, name) in elements(&group.ident, count) {
-            let id = self.dag.variable(&name);
+            let id = self.evaluator.dag.variable(&name);
             values.push(Value { id, number: None });
             if let Some(default) = defaults.next() {
-                self.parameters.push(Parameter {
+                self.regions.parameters.push(Parameter {
                     attributes: group.attributes.clone(),
                     ident: group.ident.clone(),
                     element,
@@ -78,13 +79,13 @@ impl<'d> Resolver<'d> {
                 });
             }
         }
-        self.names.set(&group.ident, meaning(count, values));
+        self.scope.names.set(&group.ident, meaning(count, values));
     }
 
     /// What follows from a group of unknown length is not reported.
     fn refuse(&mut self, ident: &Ident) {
-        self.names.set(ident, Meaning::Wrong);
-        self.names.refuse(&ident.to_string());
+        self.scope.names.set(ident, Meaning::Wrong);
+        self.scope.names.refuse(&ident.to_string());
     }
 
     /// The number of elements, `Some(None)` of a scalar; nothing if it is wrong.
@@ -92,9 +93,9 @@ impl<'d> Resolver<'d> {
         let Some(length) = &group.length else {
             return Some(None);
         };
-        let value = self.formula(length, Scope::Constant("the number of elements"))?;
+        let value = self.formula(length, Allowed::Constant("the number of elements"))?;
         let name = &group.ident;
-        let problem = match self.dag.as_integer(value.id).map(usize::try_from) {
+        let problem = match self.evaluator.dag.as_integer(value.id).map(usize::try_from) {
             Some(Ok(count)) if (1..=most).contains(&count) => return Some(Some(count)),
             Some(Ok(count)) if count > most => {
                 let message = format!("`{name}` has {count} elements: up to {most} are supported");
@@ -125,16 +126,16 @@ impl<'d> Resolver<'d> {
         item: &'d ParameterItem,
         count: Option<Option<usize>>,
     ) -> Option<Vec<Id>> {
-        let scope = Scope::Constant("the default of a parameter");
+        let allowed = Allowed::Constant("the default of a parameter");
         match &item.defaults {
             Defaults::Same(formula) => {
-                let value = self.formula(formula, scope)?;
+                let value = self.formula(formula, allowed)?;
                 Some(vec![value.id; count?.unwrap_or(1)])
             }
             Defaults::Each(formulas, extent) => {
                 let values: Vec<Option<Value>> = formulas
                     .iter()
-                    .map(|formula| self.formula(formula, scope))
+                    .map(|formula| self.formula(formula, allowed))
                     .collect();
                 self.count_defaults(&item.group.ident, count?, values.len(), *extent)?;
                 values
@@ -176,7 +177,7 @@ impl<'d> Resolver<'d> {
         formula: &'d Expression,
         group: &'d Ident,
         index: &'d Expression,
-        scope: Scope,
+        allowed: Allowed,
     ) -> Option<Value> {
         let text = group.to_string();
         let integer = self.integer(index, "an index");
@@ -185,8 +186,8 @@ impl<'d> Resolver<'d> {
             self.report(codes::INDEX_ON_SCALAR, formula.extent, message);
             return None;
         }
-        let Meaning::Elements(elements) = self.meaning(group, &text, scope)? else {
-            let kind = self.names.get(&text).map(|symbol| symbol.kind)?;
+        let Meaning::Elements(elements) = self.meaning(group, &text, allowed)? else {
+            let kind = self.scope.names.get(&text).map(|symbol| symbol.kind)?;
             self.no_group(group, kind, formula.extent);
             return None;
         };
@@ -195,7 +196,7 @@ impl<'d> Resolver<'d> {
                 let place = self.element_place(&text, elements.len(), index, index_value)?;
                 elements.get(place).copied()
             }
-            Integer::Unknown => Some(self.unknown()),
+            Integer::Unknown => Some(self.evaluator.unknown()),
         }
     }
 
@@ -204,7 +205,7 @@ impl<'d> Resolver<'d> {
         let remedy = match kind {
             Kind::State => format!("leave out the index, or declare `state {ident}[n];`"),
             Kind::Parameter => format!("leave out the index, or declare `param {ident}[n] = …;`"),
-            Kind::Argument if self.names.hides_group(&ident.to_string()) => {
+            Kind::Argument if self.scope.names.hides_group(&ident.to_string()) => {
                 "leave out the index, or rename the argument, which hides the group".into()
             }
             _ => "leave out the index".into(),
@@ -219,17 +220,17 @@ impl<'d> Resolver<'d> {
         formula: &'d Expression,
         what: &'static str,
     ) -> Option<Integer> {
-        let value = self.formula(formula, Scope::Constant(what))?;
-        if let Some(integer) = self.dag.as_integer(value.id) {
+        let value = self.formula(formula, Allowed::Constant(what))?;
+        if let Some(integer) = self.evaluator.dag.as_integer(value.id) {
             return Some(Integer::Known(integer));
         }
-        if self.is_unknown(value.id) {
+        if self.evaluator.is_unknown(value.id) {
             return Some(Integer::Unknown);
         }
         let message = format!(
             "{what} is an integer, {}{}",
             not_integer(formula, value),
-            self.turn(" with")
+            self.scope.turn(" with")
         );
         let code = match what {
             "an index" => codes::INDEX_NOT_INTEGER,
@@ -257,7 +258,7 @@ impl<'d> Resolver<'d> {
         let is = if written == meant {
             format!("`{written}` is")
         } else {
-            format!("`{written}` is `{meant}`{},", self.turn(" with"))
+            format!("`{written}` is `{meant}`{},", self.scope.turn(" with"))
         };
         let side = if value < 0 {
             "in front of the beginning"

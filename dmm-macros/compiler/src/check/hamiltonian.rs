@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use super::body::{Body, add_quantity, guess};
 use super::groups::counted;
-use super::{Resolver, Scope};
+use super::{Allowed, Resolver};
 use crate::algebra::{Id, Name, gradient};
 use crate::diagnostics::catalogue::check as codes;
 use crate::model::{Claim, Model};
@@ -22,7 +22,7 @@ impl<'d> Resolver<'d> {
     /// `hamiltonian H = formula in (q, p), …`
     pub(super) fn hamiltonian(&mut self, item: &'d HamiltonianItem, body: &mut Body) {
         let definition = &item.definition;
-        let energy = self.formula(&definition.formula, Scope::All);
+        let energy = self.formula(&definition.formula, Allowed::All);
         let energy = energy.map(|energy| energy.id);
         let Some(ident) = self.new_quantity(definition, body) else {
             // the pairs were given before under the same name
@@ -30,9 +30,9 @@ impl<'d> Resolver<'d> {
                 resolver.pairs(item, None, body);
             });
         };
-        let before = self.diagnostics.len();
+        let before = self.reporter.diagnostics.len();
         let pairs = self.pairs(item, energy, body);
-        let is_right = self.diagnostics.len() == before;
+        let is_right = self.reporter.diagnostics.len() == before;
         if let Some(energy) = energy.filter(|_| is_right)
             && let Some(claim) = self.claim(energy, &pairs)
         {
@@ -59,10 +59,10 @@ impl<'d> Resolver<'d> {
         for (&((q, p), at_q, at_p), rates) in pairs.iter().zip(rates) {
             let [by_q, by_p] = [rates.first(), rates.last()].map(|rate| rate.copied().flatten());
             let of_q = by_p.map(|rate| (rate, extent));
-            let of_p = by_q.map(|rate| (self.dag.neg(rate), extent));
-            let before = self.diagnostics.len();
+            let of_p = by_q.map(|rate| (self.evaluator.dag.neg(rate), extent));
+            let before = self.reporter.diagnostics.len();
             self.give(body, q, of_q, Some(&name), at_q.extent);
-            if self.diagnostics.len() > before {
+            if self.reporter.diagnostics.len() > before {
                 // a pair that stands there twice is one mistake
                 self.quietly(|resolver| resolver.give(body, p, of_p, Some(&name), at_p.extent));
             } else {
@@ -81,10 +81,10 @@ impl<'d> Resolver<'d> {
         };
         let names: Vec<Name> = states
             .iter()
-            .filter_map(|&state| self.states.get(state))
+            .filter_map(|&state| self.regions.states.get(state))
             .map(|state| state.name.clone())
             .collect();
-        let gradient = gradient(&mut self.dag, energy, &names);
+        let gradient = gradient(&mut self.evaluator.dag, energy, &names);
         gradient.into_iter().map(Some).collect()
     }
 
@@ -120,12 +120,12 @@ impl<'d> Resolver<'d> {
 
     /// On what grounds H is conserved; nothing if it depends on the time.
     fn claim(&self, energy: Id, pairs: &[(usize, usize)]) -> Option<Claim> {
-        let depends_on = self.dag.variables([energy]);
+        let depends_on = self.evaluator.dag.variables([energy]);
         if depends_on.contains(&Model::time()) {
             return None;
         }
         let paired: BTreeSet<usize> = pairs.iter().flat_map(|&(q, p)| [q, p]).collect();
-        let mut others = (self.states.iter().enumerate())
+        let mut others = (self.regions.states.iter().enumerate())
             .filter(|(index, _)| !paired.contains(index))
             .map(|(_, state)| &state.name);
         if others.any(|name| depends_on.binary_search(name).is_ok()) {

@@ -4,33 +4,33 @@ use proc_macro2::Ident;
 
 use super::names::{Kind, Meaning, is_built_in};
 use super::number::Problem;
-use super::{Resolver, Scope, Value};
+use super::{Allowed, Resolver, Value};
 use crate::diagnostics::catalogue::check as codes;
 use crate::model::Model;
 
 impl Resolver<'_> {
     /// The value of a name in a formula.
-    pub(super) fn name(&mut self, ident: &Ident, scope: Scope) -> Option<Value> {
+    pub(super) fn name(&mut self, ident: &Ident, allowed: Allowed) -> Option<Value> {
         let text = ident.to_string();
         if text == "pi" {
             return Some(Value {
-                id: self.dag.pi(),
+                id: self.evaluator.dag.pi(),
                 number: Some(std::f64::consts::PI),
             });
         }
         if text == "t" {
-            if let Scope::Constant(what) = scope {
+            if let Allowed::Constant(what) = allowed {
                 let message = format!("{what} cannot depend on the time");
                 self.report(codes::NOT_CONSTANT, ident, message);
                 return None;
             }
             return Some(Value {
-                id: self.dag.variable(&Model::time()),
+                id: self.evaluator.dag.variable(&Model::time()),
                 number: None,
             });
         }
-        match self.meaning(ident, &text, scope)? {
-            Meaning::Value(value) => self.constant_in(value, ident, &text, scope),
+        match self.meaning(ident, &text, allowed)? {
+            Meaning::Value(value) => self.constant_in(value, ident, &text, allowed),
             Meaning::Elements(elements) => {
                 let message = without_index(&text, elements.len());
                 self.report(codes::INDEX_MISSING, ident, message);
@@ -40,17 +40,24 @@ impl Resolver<'_> {
         }
     }
 
-    /// What `ident` means, as far as a formula in `scope` may use it; nothing is returned where
+    /// What `ident` means, as far as a formula in `allowed` may use it; nothing is returned where
     /// something was reported.
-    pub(super) fn meaning(&mut self, ident: &Ident, text: &str, scope: Scope) -> Option<Meaning> {
-        let Some(symbol) = self.names.get(text) else {
+    pub(super) fn meaning(
+        &mut self,
+        ident: &Ident,
+        text: &str,
+        allowed: Allowed,
+    ) -> Option<Meaning> {
+        let Some(symbol) = self.scope.names.get(text) else {
             self.undeclared(ident);
             return None;
         };
         let (kind, meaning) = (symbol.kind, symbol.meaning.clone());
-        self.names.mark_used(text);
-        let problem = match (kind, scope, &meaning) {
-            _ if self.names.is_refused(text) && matches!(meaning, Meaning::Ahead) => return None,
+        self.scope.names.mark_used(text);
+        let problem = match (kind, allowed, &meaning) {
+            _ if self.scope.names.is_refused(text) && matches!(meaning, Meaning::Ahead) => {
+                return None;
+            }
             (Kind::Interface, ..) => {
                 let message = format!(
                     "`{text}` is an interface, not a quantity: name its formula with `let` to use it in both places"
@@ -58,11 +65,14 @@ impl Resolver<'_> {
                 (codes::NOT_A_QUANTITY, message)
             }
             (Kind::Function, ..) => {
-                let message = format!("`{text}` is a function: write `{}`", self.signature(text));
+                let message = format!(
+                    "`{text}` is a function: write `{}`",
+                    self.scope.signature(text)
+                );
                 (codes::NOT_A_QUANTITY, message)
             }
-            (Kind::State | Kind::Parameter, Scope::Constant(what), _) => {
-                if self.names.is_refused(text) {
+            (Kind::State | Kind::Parameter, Allowed::Constant(what), _) => {
+                if self.scope.names.is_refused(text) {
                     return None;
                 }
                 let mut message = format!("{what} cannot depend on the {kind} `{text}`");
@@ -83,21 +93,22 @@ impl Resolver<'_> {
         None
     }
 
-    /// `value`, if a formula in `scope` may use what varies as much as it does.
+    /// `value`, if a formula in `allowed` may use what varies as much as it does.
     fn constant_in(
         &mut self,
         value: Value,
         ident: &Ident,
         text: &str,
-        scope: Scope,
+        allowed: Allowed,
     ) -> Option<Value> {
-        let Scope::Constant(what) = scope else {
+        let Allowed::Constant(what) = allowed else {
             return Some(value);
         };
-        if value.number.is_some() || self.is_unknown(value.id) {
+        if value.number.is_some() || self.evaluator.is_unknown(value.id) {
             return Some(value);
         }
         let is_argument = self
+            .scope
             .names
             .get(text)
             .is_some_and(|symbol| symbol.kind == Kind::Argument);
@@ -116,7 +127,7 @@ impl Resolver<'_> {
     /// Reports that a formula uses a name that stands for no quantity.
     pub(super) fn undeclared(&mut self, ident: &Ident) {
         let text = ident.to_string();
-        if self.names.is_refused(&text) {
+        if self.scope.names.is_refused(&text) {
             return;
         }
         let (code, message) = self.undeclared_problem(&text);
@@ -133,19 +144,19 @@ impl Resolver<'_> {
                 return (codes::NOT_A_QUANTITY, message);
             }
             _ => {
-                if let Some(meaning) = self.names.other_meaning(text) {
+                if let Some(meaning) = self.scope.names.other_meaning(text) {
                     let message = format!(
                         "`{text}` is {meaning}, which a formula here cannot use: declare it with `let` at the top level"
                     );
                     return (codes::NOT_A_QUANTITY, message);
                 }
-                if let Some(candidate) = self.names.closest(text, Kind::QUANTITIES) {
+                if let Some(candidate) = self.scope.names.closest(text, Kind::QUANTITIES) {
                     // it was meant, so that nothing is to be said of it being unused
-                    self.names.mark_used(&candidate);
+                    self.scope.names.mark_used(&candidate);
                     format!("`{text}` is not declared; did you mean `{candidate}`?")
                 } else {
                     // once is enough
-                    self.names.refuse(text);
+                    self.scope.names.refuse(text);
                     format!(
                         "`{text}` is not declared: declare it as a `state`, a `param`, a `const` or a `let`"
                     )

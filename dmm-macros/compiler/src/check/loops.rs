@@ -10,7 +10,7 @@ use proc_macro2::Ident;
 use super::body::Body;
 use super::groups::Integer;
 use super::names::{Kind, is_meant_to_be_unused};
-use super::{Resolver, Scope, Value};
+use super::{Allowed, Resolver, Value};
 use crate::diagnostics::catalogue::check as codes;
 use crate::syntax::{Expression, ExpressionKind, ForItem, Operator, Range};
 
@@ -34,10 +34,10 @@ impl<'d> Resolver<'d> {
         variable: &'d Ident,
         range: &'d Range,
         term: &'d Expression,
-        scope: Scope,
+        allowed: Allowed,
     ) -> Option<Value> {
         let zero = Value {
-            id: self.dag.integer(0),
+            id: self.evaluator.dag.integer(0),
             number: Some(0.0),
         };
         let mut total = Some(zero);
@@ -45,13 +45,13 @@ impl<'d> Resolver<'d> {
             // what was wrong in one turn would be wrong in the next ones
             total = match total {
                 Some(total) => resolver
-                    .expression(term, scope)
+                    .expression(term, allowed)
                     .and_then(|term| resolver.operation(formula, Operator::Add, total, term)),
                 None => None,
             };
         });
         match turns? {
-            Turns::Unknown => total.map(|_| self.unknown()),
+            Turns::Unknown => total.map(|_| self.evaluator.unknown()),
             Turns::Known(range) if range.is_empty() => total.map(|_| zero),
             Turns::Known(_) => total,
         }
@@ -69,9 +69,9 @@ impl<'d> Resolver<'d> {
                     if *is_wrong {
                         resolver.quietly(|resolver| resolver.item(inner, body));
                     } else {
-                        let before = resolver.diagnostics.len();
+                        let before = resolver.reporter.diagnostics.len();
                         resolver.item(inner, body);
-                        *is_wrong = resolver.diagnostics.len() > before;
+                        *is_wrong = resolver.reporter.diagnostics.len() > before;
                     }
                 }
             },
@@ -88,12 +88,12 @@ impl<'d> Resolver<'d> {
         turn: &mut dyn FnMut(&mut Self),
     ) -> Option<Turns> {
         let turns = self.range(range);
-        if let Some((code, message)) = self.names.counter_problem(variable) {
+        if let Some((code, message)) = self.scope.names.counter_problem(variable) {
             self.report(code, variable, message);
             self.quietly(|resolver| resolver.one_turn(variable, None, turn));
             return None;
         }
-        let before = self.diagnostics.len();
+        let before = self.reporter.diagnostics.len();
         let is_used = match &turns {
             Some(Turns::Known(range)) if !range.is_empty() => {
                 let mut is_used = false;
@@ -110,7 +110,8 @@ impl<'d> Resolver<'d> {
             }
             _ => self.one_turn(variable, None, turn),
         };
-        if !is_used && self.diagnostics.len() == before && !is_meant_to_be_unused(variable) {
+        if !is_used && self.reporter.diagnostics.len() == before && !is_meant_to_be_unused(variable)
+        {
             let message = format!(
                 "the loop variable `{variable}` is never used: every turn is the same; call it `_{variable}` if that is meant"
             );
@@ -128,17 +129,14 @@ impl<'d> Resolver<'d> {
     ) -> bool {
         let value = match value {
             Some(value) => Value {
-                id: self.dag.integer(value),
+                id: self.evaluator.dag.integer(value),
                 number: Some(value as f64),
             },
-            None => self.unknown(),
+            None => self.evaluator.unknown(),
         };
-        let is_rehearsal = self.is_rehearsal || value.number.is_none();
-        let was_rehearsal = std::mem::replace(&mut self.is_rehearsal, is_rehearsal);
-        self.names.push_local(variable, Kind::Counter, value);
+        self.scope.names.push_local(variable, Kind::Counter, value);
         turn(self);
-        self.is_rehearsal = was_rehearsal;
-        self.names.pop_local()
+        self.scope.names.pop_local()
     }
 
     fn range(&mut self, range: &'d Range) -> Option<Turns> {

@@ -17,6 +17,8 @@
 
 mod advice;
 mod body;
+mod budget;
+mod evaluator;
 mod formula;
 mod functions;
 mod groups;
@@ -29,22 +31,25 @@ mod number;
 mod regions;
 mod report;
 mod samples;
+mod scope;
 mod sides;
 mod targets;
 
 #[cfg(test)]
 mod tests;
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use crate::algebra::{Dag, Id};
+use crate::algebra::Id;
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::check as codes;
-use crate::model::{Interface, Model, Parameter, State};
-use crate::syntax::{Declaration, Definition, Expression, FunctionItem, Item};
+use crate::model::{Interface, Model};
+use crate::syntax::{Declaration, Definition, Item};
+use budget::Budget;
+use evaluator::{Evaluator, Value};
 use groups::MOST_STATES;
-use names::{Kind, Meaning, Names};
-use samples::Samples;
+use names::{Kind, Meaning};
+use regions::Regions;
+use report::Reporter;
+use scope::Scope;
 
 /// Resolves `declaration`. The model is there if nothing was added to `diagnostics`.
 pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Option<Model> {
@@ -55,11 +60,15 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
     let regions = resolver.regions(&declaration);
     resolver.unused();
     let Resolver {
-        dag,
-        diagnostics,
-        states,
-        parameters,
-        interfaces,
+        evaluator,
+        regions:
+            Regions {
+                states,
+                parameters,
+                interfaces,
+                ..
+            },
+        reporter: Reporter { diagnostics, .. },
         ..
     } = resolver;
     let is_right = diagnostics.len() == before;
@@ -67,7 +76,7 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
         attributes: declaration.attributes,
         visibility: declaration.visibility,
         name: declaration.name,
-        dag,
+        dag: evaluator.dag,
         states,
         parameters,
         interfaces: interfaces.into_iter().flatten().collect(),
@@ -78,86 +87,30 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
 
 /// What has been resolved so far.
 struct Resolver<'d> {
-    dag: Dag,
-    names: Names,
-    diagnostics: &'d mut Diagnostics,
-    states: Vec<State>,
-    /// By name: the index of the first element, and the number of elements of a group.
-    state_groups: BTreeMap<String, (usize, Option<usize>)>,
-    parameters: Vec<Parameter>,
-    /// By interface; nothing where its formula is wrong.
-    interfaces: Vec<Option<Interface>>,
-    functions: BTreeMap<String, &'d FunctionItem>,
-    /// Whether a region is missing, and with it whatever it would use.
-    lacks_region: bool,
-
-    /// What regions repeat of what they share, as far as it was reported.
-    repeated: BTreeSet<String>,
-    /// The function whose declaration is read.
-    defining: Option<String>,
-    /// The calls that are being written out, the outermost first.
-    calls: Vec<&'d Expression>,
-    /// By function and arguments: what a call was written out to.
-    calls_known: BTreeMap<(String, Vec<Id>), Option<Value>>,
-    /// Variables that stand for what is not known so far.
-    unknowns: BTreeSet<Id>,
-    samples: Samples,
-    /// By divisor that is not clear from the samples: whether it is zero.
-    divisors: BTreeMap<Id, bool>,
-    /// By node: how deep it is nested, if it and all below it was found to be in order; else 0.
-    levels: Vec<usize>,
-    /// How deep the part of a formula that is read is nested.
-    depth: usize,
-    /// How much was read.
-    work: usize,
-    /// Whether a loop without turns is read once all the same: what it gives does not count.
-    is_rehearsal: bool,
-    /// Whether what is reported is to be forgotten, because it was reported before.
-    is_quiet: bool,
+    scope: Scope<'d>,
+    evaluator: Evaluator,
+    budget: Budget,
+    regions: Regions,
+    reporter: Reporter<'d>,
 }
 
 /// What a formula may depend on.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Scope {
+enum Allowed {
     /// Constants alone, in the definition of the thing that is named.
     Constant(&'static str),
     /// Everything.
     All,
 }
 
-/// A resolved formula.
-#[derive(Debug, Clone, Copy)]
-struct Value {
-    /// Its node.
-    id: Id,
-    /// Its floating-point value if it is free of variables.
-    number: Option<f64>,
-}
-
 impl<'d> Resolver<'d> {
     fn new(declaration: &Declaration, diagnostics: &'d mut Diagnostics) -> Self {
         Self {
-            dag: Dag::new(),
-            names: Names::collect(declaration, diagnostics),
-            diagnostics,
-            states: Vec::new(),
-            state_groups: BTreeMap::new(),
-            parameters: Vec::new(),
-            interfaces: Vec::new(),
-            functions: BTreeMap::new(),
-            lacks_region: false,
-            repeated: BTreeSet::new(),
-            defining: None,
-            calls: Vec::new(),
-            calls_known: BTreeMap::new(),
-            unknowns: BTreeSet::new(),
-            samples: Samples::default(),
-            divisors: BTreeMap::new(),
-            levels: Vec::new(),
-            depth: 0,
-            work: 0,
-            is_rehearsal: false,
-            is_quiet: false,
+            scope: Scope::of(declaration, diagnostics),
+            evaluator: Evaluator::default(),
+            budget: Budget::default(),
+            regions: Regions::default(),
+            reporter: Reporter::new(diagnostics),
         }
     }
 
@@ -168,9 +121,9 @@ impl<'d> Resolver<'d> {
                 Item::State(groups) => groups.iter().for_each(|group| self.state(group)),
                 Item::Parameter(parameter) => self.parameter(parameter),
                 Item::Constant(constant) => {
-                    self.define(constant, Kind::Constant, Scope::Constant("a constant"));
+                    self.define(constant, Kind::Constant, Allowed::Constant("a constant"));
                 }
-                Item::Let(definition) => self.define(definition, Kind::Let, Scope::All),
+                Item::Let(definition) => self.define(definition, Kind::Let, Allowed::All),
                 Item::Function(function) => self.function(function),
                 Item::Interface(interface) => self.interface(interface),
                 Item::Region(_)
@@ -180,36 +133,36 @@ impl<'d> Resolver<'d> {
                 | Item::For(_) => {}
             }
         }
-        if self.states.is_empty() && !self.names.any_refused() {
+        if self.regions.states.is_empty() && !self.scope.names.any_refused() {
             self.report(
                 codes::NO_STATE,
                 &declaration.name,
                 "a system has at least one state: declare `state x;`",
             );
-        } else if self.states.len() > MOST_STATES {
+        } else if self.regions.states.len() > MOST_STATES {
             let message = format!(
                 "{} states are too many: up to {MOST_STATES} are supported",
-                self.states.len()
+                self.regions.states.len()
             );
             self.report(codes::TOO_MANY_STATES, &declaration.name, message);
         }
     }
 
     /// `const` and `let`: from here on, the name stands for the formula.
-    fn define(&mut self, definition: &'d Definition, kind: Kind, scope: Scope) {
-        let value = self.formula(&definition.formula, scope);
-        if self.names.is_first(&definition.ident, kind) {
+    fn define(&mut self, definition: &'d Definition, kind: Kind, allowed: Allowed) {
+        let value = self.formula(&definition.formula, allowed);
+        if self.scope.names.is_first(&definition.ident, kind) {
             let meaning = value.map_or(Meaning::Wrong, Meaning::Value);
-            self.names.set(&definition.ident, meaning);
+            self.scope.names.set(&definition.ident, meaning);
         }
     }
 
     fn interface(&mut self, interface: &'d Definition) {
-        let value = self.formula(&interface.formula, Scope::All);
-        if !self.names.is_first(&interface.ident, Kind::Interface) {
+        let value = self.formula(&interface.formula, Allowed::All);
+        if !self.scope.names.is_first(&interface.ident, Kind::Interface) {
             return;
         }
-        if self.interfaces.len() == 1 {
+        if self.regions.interfaces.len() == 1 {
             let message = format!(
                 "several interfaces are not supported yet: `{}` is the second of this system",
                 interface.ident
@@ -217,15 +170,15 @@ impl<'d> Resolver<'d> {
             self.report(codes::SEVERAL_INTERFACES, &interface.ident, message);
         }
         let resolved = value.and_then(|value| self.switching(interface, value.id));
-        self.interfaces.push(resolved);
+        self.regions.interfaces.push(resolved);
     }
 
     fn switching(&mut self, interface: &Definition, g: Id) -> Option<Interface> {
-        let depends_on = self.dag.variables([g]);
+        let depends_on = self.evaluator.dag.variables([g]);
         let varies = depends_on.contains(&Model::time())
-            || (self.states.iter()).any(|state| depends_on.contains(&state.name))
+            || (self.regions.states.iter()).any(|state| depends_on.contains(&state.name))
             // an undeclared state has been reported where it is used
-            || self.states.is_empty();
+            || self.regions.states.is_empty();
         if !varies {
             let message = format!(
                 "the interface `{}` depends neither on a state nor on `t`, so nothing can cross it",

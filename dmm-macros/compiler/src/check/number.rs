@@ -3,7 +3,7 @@
 use num_traits::{ToPrimitive, Zero};
 
 use super::Value;
-use crate::algebra::{Dag, Function, Id, Math, Rational};
+use crate::algebra::{Dag, Domain, Function, Id, Math, Rational};
 use crate::diagnostics::Code;
 use crate::diagnostics::catalogue::check as codes;
 use crate::syntax::Operator;
@@ -37,37 +37,18 @@ pub(super) fn operation(operator: Operator, left: f64, right: f64) -> f64 {
     }
 }
 
-/// The value of `function(argument)`.
+/// The value of `function(argument)`; ln 0 = −∞ is refused as not finite.
 pub(super) fn call(function: Function, argument: f64) -> f64 {
-    match function {
-        Function::Sqrt => argument.sqrt(),
-        Function::Exp => argument.exp(),
-        // ln 0 = −∞ is refused as not finite
-        Function::Ln => argument.ln(),
-        Function::Sin => argument.sin(),
-        Function::Cos => argument.cos(),
-        Function::Tan => argument.tan(),
-        Function::Sinh => argument.sinh(),
-        Function::Cosh => argument.cosh(),
-        Function::Tanh => argument.tanh(),
-        Function::Asin => argument.asin(),
-        Function::Acos => argument.acos(),
-        Function::Atan => argument.atan(),
-        Function::Abs => argument.abs(),
-        // the compiler's own functions cannot be called by a declaration
-        Function::Sinc | Function::SincPrime | Function::Sinhc | Function::SinhcPrime => f64::NAN,
-    }
+    (function.properties().value)(argument)
 }
 
 /// Why `function` has no value at `argument`.
 pub(super) fn call_problem(function: Function, argument: f64) -> Problem {
-    let (code, domain) = match function {
-        Function::Sqrt => (codes::OUTSIDE_DOMAIN, "its argument must not be negative"),
-        Function::Ln => (codes::OUTSIDE_DOMAIN, "its argument must be positive"),
-        Function::Asin | Function::Acos => {
-            (codes::OUTSIDE_DOMAIN, "its argument must be in [-1, 1]")
-        }
-        _ => (
+    let (code, domain) = match function.properties().domain {
+        Domain::NotNegative => (codes::OUTSIDE_DOMAIN, "its argument must not be negative"),
+        Domain::Positive => (codes::OUTSIDE_DOMAIN, "its argument must be positive"),
+        Domain::WithinOne => (codes::OUTSIDE_DOMAIN, "its argument must be in [-1, 1]"),
+        Domain::All | Domain::NonZero(_) => (
             codes::OUT_OF_RANGE,
             "its value is beyond the range of floating-point numbers",
         ),

@@ -10,11 +10,24 @@ use super::body::Body;
 use crate::algebra::Id;
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::check as codes;
-use crate::model::{Independence, Region, Side};
+use crate::model::{Interface, Parameter, Region, Side, State};
 use crate::syntax::{Declaration, Item, RegionItem};
 
 /// The region of a system without interface.
 const EVERYWHERE: &str = "everywhere";
+
+/// What the model has besides formulas.
+#[derive(Debug, Default)]
+pub(super) struct Regions {
+    pub(super) states: Vec<State>,
+    /// By name: the index of the first element, and the number of elements of a group.
+    pub(super) state_groups: BTreeMap<String, (usize, Option<usize>)>,
+    pub(super) parameters: Vec<Parameter>,
+    /// By interface; nothing where its formula is wrong.
+    pub(super) interfaces: Vec<Option<Interface>>,
+    /// Whether a region is missing, and with it whatever it would use.
+    pub(super) lacks_region: bool,
+}
 
 impl<'d> Resolver<'d> {
     /// The regions of the model.
@@ -33,7 +46,7 @@ impl<'d> Resolver<'d> {
             .iter()
             .map(|item| (self.sides(item), self.region(item, &shared)))
             .collect();
-        if self.interfaces.len() == 1 {
+        if self.regions.interfaces.len() == 1 {
             self.both_sides(declaration, &items);
         }
         if items.is_empty() {
@@ -53,7 +66,7 @@ impl<'d> Resolver<'d> {
 
     /// What stands outside of regions: it holds in every one of them.
     fn shared(&mut self, declaration: &'d Declaration) -> Body {
-        let mut body = Body::new(self.states.len());
+        let mut body = Body::new(self.regions.states.len());
         for item in &declaration.items {
             match item {
                 Item::Derivative(_) | Item::Conserved(_) | Item::Hamiltonian(_) | Item::For(_) => {
@@ -67,7 +80,7 @@ impl<'d> Resolver<'d> {
 
     /// The only region of a smooth system.
     fn everywhere(&mut self, declaration: &Declaration, body: Body) -> Option<Region> {
-        if !self.interfaces.is_empty() {
+        if !self.regions.interfaces.is_empty() {
             return None;
         }
         let ident = Ident::new(EVERYWHERE, declaration.name.span());
@@ -79,7 +92,7 @@ impl<'d> Resolver<'d> {
         let mut body = shared.in_region(&item.ident);
         let items: Vec<&Item> = item.items.iter().collect();
         self.items(&items, &mut body);
-        let unused = self.names.leave_region();
+        let unused = self.scope.names.leave_region();
         if !self.is_exhausted() {
             self.report_unused(unused);
         }
@@ -96,7 +109,7 @@ impl<'d> Resolver<'d> {
             let mut fields = read.iter().map(|(_, body)| &body.field);
             fields.all(|field| matches!(field.get(state), Some(None)))
         };
-        let missing: Vec<usize> = (0..self.states.len())
+        let missing: Vec<usize> = (0..self.regions.states.len())
             .filter(|&state| read.len() > 1 && is_missing(state))
             .collect();
         let has_unknown_state = read.iter().any(|(_, body)| body.has_unknown_state);
@@ -140,11 +153,15 @@ impl<'d> Resolver<'d> {
     /// `` `der(x)`, `der(q[0])` to `der(q[7])` ``
     fn derivatives(&self, states: &[usize]) -> String {
         let name = |state: usize| {
-            let name = self.states.get(state).map(|state| state.name.to_string());
+            let name = self
+                .regions
+                .states
+                .get(state)
+                .map(|state| state.name.to_string());
             format!("`der({})`", name.unwrap_or_default())
         };
         let group = |state: usize| {
-            let state = self.states.get(state)?;
+            let state = self.regions.states.get(state)?;
             state.element.map(|_| &state.ident)
         };
         let follows = |&one: &usize, &next: &usize| {
@@ -198,6 +215,5 @@ fn finished(
         field_spans,
         conserved: body.conserved,
         canonical: body.canonical,
-        independence: Independence::Nothing,
     }
 }

@@ -11,7 +11,7 @@ impl Resolver<'_> {
     /// The sign pattern, if every condition is in order.
     pub(super) fn sides(&mut self, region: &RegionItem) -> Option<Vec<Side>> {
         if region.conditions.is_empty() {
-            let (code, message) = match self.interfaces.first() {
+            let (code, message) = match self.regions.interfaces.first() {
                 // what is wrong with the interface has been reported
                 Some(None) => return None,
                 Some(Some(Interface { ident: interface, .. })) => (
@@ -53,9 +53,9 @@ impl Resolver<'_> {
     fn side(&mut self, condition: &Condition) -> Option<Side> {
         let ident = &condition.interface;
         let text = ident.to_string();
-        let message = match self.names.get(&text).map(|symbol| symbol.kind) {
+        let message = match self.scope.names.get(&text).map(|symbol| symbol.kind) {
             Some(Kind::Interface) => {
-                let interface = (self.interfaces.iter())
+                let interface = (self.regions.interfaces.iter())
                     .position(|known| known.as_ref().is_some_and(|known| known.ident == *ident))?;
                 let sign = match condition.relation {
                     Relation::Less => Sign::Negative,
@@ -64,16 +64,16 @@ impl Resolver<'_> {
                 return Some(Side { interface, sign });
             }
             // an interface was meant to be declared under this name
-            Some(_) if self.names.is_refused(&text) => return None,
+            Some(_) if self.scope.names.is_refused(&text) => return None,
             Some(kind) => {
-                self.names.mark_used(&text);
+                self.scope.names.mark_used(&text);
                 format!(
                     "`{text}` is {}, not an interface: declare `interface name = {text};` and write `name {} 0`",
                     kind.article(),
                     condition.relation.symbol()
                 )
             }
-            None => match self.names.closest(&text, &[Kind::Interface]) {
+            None => match self.scope.names.closest(&text, &[Kind::Interface]) {
                 Some(candidate) => {
                     format!("there is no interface `{text}`; did you mean `{candidate}`?")
                 }
@@ -96,7 +96,7 @@ impl Resolver<'_> {
                 "the interface `{interface}` bounds no region: write `region … where {interface} > 0 {{ … }}` and `region … where {interface} < 0 {{ … }}`, with the `der` items in them"
             );
             self.report(codes::NO_REGION, interface, message);
-            self.lacks_region = true;
+            self.regions.lacks_region = true;
             return;
         }
         // with a wrong pattern it is not known which side was meant
@@ -131,7 +131,7 @@ impl Resolver<'_> {
             }
         }
         if !is_unclear {
-            self.lacks_region |= !missing.is_empty();
+            self.regions.lacks_region |= !missing.is_empty();
             for symbol in missing {
                 let message = format!(
                     "there is no region where `{interface} {symbol} 0`: declare `region name where {interface} {symbol} 0 {{ … }}`"

@@ -42,9 +42,9 @@ impl<'d> Resolver<'d> {
             .index
             .as_ref()
             .map(|index| (index, self.integer(index, "an index")));
-        let Some(&(first, count)) = self.state_groups.get(&text) else {
+        let Some(&(first, count)) = self.regions.state_groups.get(&text) else {
             let meant = self.not_a_state(ident, whole).and_then(|meant| {
-                let &(first, count) = self.state_groups.get(&meant)?;
+                let &(first, count) = self.regions.state_groups.get(&meant)?;
                 Some(first..first + count.unwrap_or(1))
             });
             body.has_unknown_state |= meant.is_none();
@@ -80,9 +80,9 @@ impl<'d> Resolver<'d> {
     /// probably meant.
     fn not_a_state(&mut self, ident: &Ident, pair: bool) -> Option<String> {
         let text = ident.to_string();
-        if let Some(kind) = self.names.get(&text).map(|symbol| symbol.kind) {
-            if kind != Kind::State && !self.names.is_refused(&text) {
-                self.names.mark_used(&text);
+        if let Some(kind) = self.scope.names.get(&text).map(|symbol| symbol.kind) {
+            if kind != Kind::State && !self.scope.names.is_refused(&text) {
+                self.scope.names.mark_used(&text);
                 let states = if pair {
                     "only states make canonical pairs"
                 } else {
@@ -93,10 +93,10 @@ impl<'d> Resolver<'d> {
             }
             return None;
         }
-        if self.names.is_refused(&text) {
+        if self.scope.names.is_refused(&text) {
             return None;
         }
-        let closest = self.names.closest(&text, &[Kind::State]);
+        let closest = self.scope.names.closest(&text, &[Kind::State]);
         let message = match &closest {
             Some(state) => format!("there is no state `{text}`; did you mean `{state}`?"),
             None if text == "t" && pair => "`t` is the time, which is not a state".into(),

@@ -1,5 +1,6 @@
 //! ψ = Σ cₘ m over the monomials m of the generators, and its values at points.
 
+use crate::algebra::linear::dot;
 use crate::algebra::normal_form::terms::{Atom, Terms, terms};
 use crate::algebra::{Dag, Id, Math, Name, gradient};
 
@@ -119,7 +120,7 @@ impl<'m> Ansatz<'m> {
         }
         for field in fields {
             for derivative in &derivatives {
-                roots.push(rate(dag, derivative, field));
+                roots.push(dot(dag, derivative, field));
             }
         }
         for place in 0..states.len() {
@@ -320,13 +321,4 @@ impl<'m> Ansatz<'m> {
         }
         dag.div(product, below)
     }
-}
-
-/// ∇u·f
-pub(super) fn rate(dag: &mut Dag, gradient: &[Id], field: &[Id]) -> Id {
-    let mut terms = Vec::with_capacity(field.len());
-    for (&derivative, &component) in gradient.iter().zip(field) {
-        terms.push(dag.mul(derivative, component));
-    }
-    dag.sum(terms)
 }

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 use num_traits::Zero;
 
+use crate::algebra::linear::dot;
 use crate::algebra::normal_form::terms::{Atom, Exponent, Term, Terms, terms};
 use crate::algebra::{Dag, Id, Name, Rational, divide_exactly, gradient, normalise};
 
-use super::ansatz::rate;
 use super::field::to_coprime_integers;
 use super::generators;
 
@@ -39,7 +39,7 @@ pub(super) fn functions(
     let gradient = gradient(dag, psi, states);
     let mut residuals = Vec::new();
     for field in fields {
-        residuals.push(rate(dag, &gradient, field));
+        residuals.push(dot(dag, &gradient, field));
     }
     let terms = terms(dag, &residuals)?;
     let equations = equations(dag, states, &unknowns, &terms)?;

@@ -44,6 +44,7 @@ use std::fmt;
 use crate::algebra::normal_form::terms::terms;
 use crate::algebra::{Id, Name};
 use crate::model::Model;
+use crate::proofs::Derivatives;
 use ansatz::{Ansatz, MOST_MONOMIALS, monomials};
 use candidate::occurring;
 use search::{Findings, Known, Search};
@@ -69,10 +70,12 @@ pub struct Invariants {
 }
 
 /// An invariant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Invariant {
     /// ψ
     pub psi: Id,
+    /// ∇ψ and ∂ₜψ
+    pub derivatives: Derivatives,
     /// Its degree in the generators.
     pub degree: u32,
 }

@@ -123,10 +123,12 @@ impl Names {
         besides: &str,
     ) {
         for invariant in invariants {
-            let conditions: Vec<String> = proofs::domain(model, regions, invariant.psi)
-                .into_iter()
-                .map(|condition| condition.statement(&model.dag))
-                .collect();
+            let derivatives = &invariant.derivatives;
+            let conditions: Vec<String> =
+                proofs::domain(model, regions, invariant.psi, derivatives)
+                    .into_iter()
+                    .map(|condition| condition.statement(&model.dag))
+                    .collect();
             if !conditions.is_empty() {
                 let _ = writeln!(text, "    // where {}", conditions.join(", "));
             }

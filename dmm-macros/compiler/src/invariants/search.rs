@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 
 use num_traits::Signed;
 
-use crate::algebra::{Dag, Id, Math, Name, gradient, is_proved_zero};
+use crate::algebra::linear::dot;
+use crate::algebra::{Dag, Id, Math, Name, is_proved_zero};
+use crate::proofs::Derivatives;
 
 use super::Invariant;
-use super::ansatz::{Ansatz, EXTRA_EQUATIONS, Parameters, rate};
+use super::ansatz::{Ansatz, EXTRA_EQUATIONS, Parameters};
 use super::candidate::{Candidate, occurring};
 use super::coefficients::{functions, without_denominators};
 use super::elimination::{Echelon, Entry};
@@ -101,13 +103,17 @@ impl Search<'_> {
                 };
                 let own = group.remove(place);
                 let found = [vector, own.vector.clone()].into_iter().find_map(|vector| {
-                    let psi = self.lift(dag, fields, &vector, own.parameters, &mut random)?;
-                    Some((psi, vector))
+                    let found = self.lift(dag, fields, &vector, own.parameters, &mut random)?;
+                    Some((found, vector))
                 });
                 match found {
-                    Some((psi, vector)) => {
+                    Some(((psi, derivatives), vector)) => {
                         known.rows.push(gradient(&vector));
-                        findings.invariants.push(Invariant { psi, degree });
+                        findings.invariants.push(Invariant {
+                            psi,
+                            derivatives,
+                            degree,
+                        });
                     }
                     None => findings.unresolved += 1,
                 }
@@ -169,7 +175,7 @@ impl Search<'_> {
         Some(echelon.free_columns().into_iter().map(candidate).collect())
     }
 
-    /// ψ with exact coefficients; `None` if they were not found or not proved.
+    /// ψ with exact coefficients, and its derivatives; `None` if they were not found or not proved.
     fn lift(
         &self,
         dag: &mut Dag,
@@ -177,7 +183,7 @@ impl Search<'_> {
         vector: &[Entry],
         parameters: Parameters,
         random: &mut Random,
-    ) -> Option<Id> {
+    ) -> Option<(Id, Derivatives)> {
         let columns: Vec<usize> = vector.iter().map(|&(column, _)| column).collect();
         let chosen = fields
             .iter()
@@ -196,7 +202,7 @@ impl Search<'_> {
                 .map(|number| dag.constant(number * &scale))
                 .collect();
             let psi = combination(dag, self.ansatz, &columns, &numbers);
-            return self.is_proved(dag, psi, &chosen).then_some(psi);
+            return self.proved(dag, psi, &chosen);
         }
         let known = coefficients.powers(dag, self.parameters, random)?;
         let monomials: Vec<Id> = columns
@@ -206,16 +212,17 @@ impl Search<'_> {
         let functions = functions(dag, self.states, &chosen, &monomials, &known)?;
         let coefficients = without_denominators(dag, &functions)?;
         let psi = combination(dag, self.ansatz, &columns, &coefficients);
-        self.is_proved(dag, psi, &chosen).then_some(psi)
+        self.proved(dag, psi, &chosen)
     }
 
-    /// Whether ∇ψ·f = 0 is proved for these fields.
-    fn is_proved(&self, dag: &mut Dag, psi: Id, fields: &[&[Id]]) -> bool {
-        let gradient = gradient(dag, psi, self.states);
-        fields.iter().all(|field| {
-            let residual = rate(dag, &gradient, field);
+    /// ψ with its derivatives, if ∇ψ·f = 0 is proved for these fields.
+    fn proved(&self, dag: &mut Dag, psi: Id, fields: &[&[Id]]) -> Option<(Id, Derivatives)> {
+        let derivatives = Derivatives::of(dag, psi, self.states);
+        let is_proved = fields.iter().all(|field| {
+            let residual = dot(dag, &derivatives.gradient, field);
             is_proved_zero(dag, residual)
-        })
+        });
+        is_proved.then_some((psi, derivatives))
     }
 }
 

@@ -68,7 +68,10 @@ impl Written {
         Self {
             field: Results::Column(lowering.column(&declared.field)),
             jacobian: Results::Matrix(lowering.rows(&scheme.jacobian)),
-            multiplier: Results::ColumnAndMatrix(psi.clone(), lowering.rows(&scheme.multiplier)),
+            multiplier: Results::ColumnAndMatrix(
+                psi.clone(),
+                lowering.rows(&scheme.proved.multiplier),
+            ),
             psi: Results::Column(psi),
             psi_size: Results::Column(lowering.column(&sizes)),
             discrete: lowering.discrete(scheme),

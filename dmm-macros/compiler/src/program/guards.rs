@@ -13,6 +13,7 @@ use super::series::Series;
 use super::size::rounding;
 use crate::algebra::{Dag, Id, Name};
 use crate::model::Sign;
+use crate::proofs::Derivatives;
 use crate::scheme::{CheckedCondition, Scheme, SwitchingScheme};
 
 /// The program of the interfaces and the checked conditions of a system.
@@ -48,7 +49,8 @@ impl Guards {
         let mut written = Lowered::new(parameters.to_vec());
         let mut target = Lowered::new(parameters.to_vec());
         let nodes: Vec<Nodes> = switching(scheme)
-            .map(|(function, derivatives)| {
+            .map(|(function, switching)| {
+                let derivatives = &switching.derivatives;
                 let nodes = Nodes::lower(dag, &mut written, &mut target, function, derivatives);
                 nodes.optimised(&written, &mut target, optimiser)
             })
@@ -87,7 +89,7 @@ fn switching(scheme: &Scheme) -> impl Iterator<Item = (Id, &SwitchingScheme)> {
     interfaces.chain(
         scheme
             .checked_conditions()
-            .map(|condition| (condition.function, &condition.derivatives)),
+            .map(|condition| (condition.function, &condition.switching)),
     )
 }
 
@@ -136,7 +138,7 @@ impl Nodes {
         written: &mut Lowered,
         target: &mut Lowered,
         function: Id,
-        derivatives: &SwitchingScheme,
+        derivatives: &Derivatives,
     ) -> Self {
         let size = rounding(dag, function);
         let size = written.lower(dag, size);

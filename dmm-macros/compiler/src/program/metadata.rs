@@ -1,7 +1,7 @@
 //! What a machine is told of a system besides its functions: names, and where the regions lie.
 
 use crate::model::{Model, Region, Sign, plain_text};
-use crate::scheme::{Scheme, quantities};
+use crate::scheme::Scheme;
 
 /// The names in a system, and where its regions lie.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,7 +54,7 @@ impl Metadata {
         let conditions = scheme.checked_conditions().map(|checked| Condition {
             region: checked.region,
             condition: checked.condition.statement(scheme.dag()),
-            quantities: quantities(&model.regions[checked.region], checked),
+            quantities: checked.names(&model.regions[checked.region]),
             keeps_sign: checked.keeps_sign(),
         });
         Self {

@@ -80,8 +80,8 @@ pub(super) fn rounding(dag: &mut Dag, root: Id) -> Id {
 fn absolute(dag: &mut Dag, root: Id) -> Id {
     match dag[root].clone() {
         Math::Constant(value) => dag.constant(num_traits::Signed::abs(&value)),
-        Math::Pi
-        | Math::Call(Function::Abs | Function::Exp | Function::Sqrt | Function::Cosh, _) => root,
+        Math::Pi => root,
+        Math::Call(function, _) if function.properties().is_not_negative => root,
         Math::Pow([_, n]) if dag.as_integer(n).is_some_and(|n| n % 2 == 0) => root,
         _ => dag.call(Function::Abs, root),
     }

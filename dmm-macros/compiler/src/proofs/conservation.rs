@@ -2,97 +2,80 @@
 
 use std::collections::BTreeSet;
 
-use super::conditions::{Domain, domain};
-use super::message::{coordinates, in_region, refutation, rounded, shortened};
+use super::conditions::domain;
+use super::message::QuantityProblem;
 use super::place::decide;
 use super::points::points;
 use super::signs::on_both_sides;
-use super::{Place, Quantity, Variables, rate};
+use super::{Conservation, Derivatives, Place, Quantity, Variables};
 use crate::algebra::normal_form::decide_zero_on;
-use crate::algebra::{Dag, Id, Name, Verdict, evaluate_bounded, is_proved_zero, to_text};
-use crate::diagnostics::Diagnostics;
-use crate::diagnostics::catalogue::proofs as codes;
-use crate::model::{Claim, Conservation, Conserved, Region, positive};
+use crate::algebra::{Dag, Id, Name, Verdict, evaluate_bounded, is_proved_zero};
+use crate::model::{Claim, Conserved, Region, positive};
 
 /// `assume` wants this many points in the domain …
-const FEWEST_POINTS: usize = 64;
+pub(super) const FEWEST_POINTS: usize = 64;
 /// … is content with this many …
 const ENOUGH_POINTS: usize = 128;
 /// … and gives up after this many.
-const MOST_TRIALS: usize = 2048;
+pub(super) const MOST_TRIALS: usize = 2048;
 /// The largest residual that `assume` accepts, relative to the size of the terms that cancel:
 /// far above what rounding leaves, far below a wrong coefficient.
 const SMALL: f64 = 1e-9;
 
-/// Examines one ψ: what is known of it, or nothing if an error was reported.
+/// Examines one ψ: why it is conserved, or what is wrong with it.
 pub(super) fn examine(
     dag: &mut Dag,
     variables: &Variables,
     place: &Place<'_>,
     psi: &Conserved,
-    diagnostics: &mut Diagnostics,
-) -> Option<(Conservation, Quantity)> {
+    quantity: &Quantity,
+) -> Result<Conservation, QuantityProblem> {
     let region = place.region;
-    let quantity = Quantity::new(dag, &variables.states, psi.psi);
-    let name = &psi.ident;
     let is_zero = |id: &Id| is_proved_zero(dag, *id);
-    if quantity.autonomous && quantity.gradient.iter().all(is_zero) {
-        let message = format!(
-            "`{name}` depends neither on the states nor on `t`: a constant needs no conservation; remove it"
-        );
-        diagnostics.report(codes::CONSTANT_QUANTITY, psi.span, message);
-        return None;
+    if quantity.autonomous && quantity.derivatives.gradient.iter().all(is_zero) {
+        return Err(QuantityProblem::Constant);
     }
-    let formulas = formulas(dag, &region.field, &quantity);
-    if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, &quantity) {
-        let domain = domain(&mut dag.clone(), &formulas, &place.sides, &BTreeSet::new());
-        return report_empty(place, psi, &domain, diagnostics)
-            .then_some((Conservation::ByConstruction, quantity));
+    let formulas = formulas(dag, &region.field, quantity.psi, &quantity.derivatives);
+    if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, quantity) {
+        conditions(dag, place, &formulas)?;
+        return Ok(Conservation::ByConstruction);
     }
-    let residual = rate(dag, quantity.by_time, &quantity.gradient, &region.field);
+    let residual = quantity.derivatives.rate(dag, &region.field);
     let (verdict, formulas) = decide_in(dag, variables, place, residual, formulas);
     let roots: Vec<Id> = formulas.iter().copied().chain([residual]).collect();
-    let refused = match verdict {
+    match verdict {
         Verdict::Proved => {
             let both = on_both_sides(&mut dag.clone(), variables, place, residual, &roots);
             let domain = domain(dag, &roots, &place.sides, &both);
-            return report_empty(place, psi, &domain, diagnostics)
-                .then_some((Conservation::Proved(domain.conditions), quantity));
+            match domain.contradiction {
+                Some(needs) => Err(QuantityProblem::NoValue(needs)),
+                None => Ok(Conservation::Proved(domain.conditions)),
+            }
         }
-        Verdict::Refuted(counterexample) => {
-            let message = format!(
-                "`{name}` is not conserved{}: d/dt {name} = {}",
-                in_region(region),
-                refutation(dag, &counterexample)
-            );
-            (codes::NOT_CONSERVED, message)
-        }
+        Verdict::Refuted(counterexample) => Err(QuantityProblem::Refuted(counterexample)),
         verdict @ (Verdict::Undecided | Verdict::Exhausted) => {
-            let domain = domain(&mut dag.clone(), &roots, &place.sides, &BTreeSet::new());
-            if !report_empty(place, psi, &domain, diagnostics) {
-                return None;
-            }
+            conditions(dag, place, &roots)?;
             if psi.claim == Claim::Assumed {
-                let evidence = assumed(dag, variables, region, &quantity, psi, diagnostics)?;
-                return Some((evidence, quantity));
+                return assumed(dag, variables, region, quantity, residual);
             }
-            let found = match verdict {
-                Verdict::Exhausted => {
-                    "was not found to be zero before the work that proofs may take ran out; write it with fewer or shorter terms"
-                }
-                _ => "was found neither to be zero nor clearly not to be; write it in another way",
-            };
-            let message = format!(
-                "`{name}` could not be proved to be conserved{}: d/dt {name} = {} {found}, or accept it with `assume conserved {name} = …;`, which checks it at many points",
-                in_region(region),
-                shortened(&to_text(dag, residual))
-            );
-            (codes::NOT_PROVED, message)
+            Err(QuantityProblem::NotProved {
+                residual,
+                is_exhausted: matches!(verdict, Verdict::Exhausted),
+            })
         }
-    };
-    let (code, message) = refused;
-    diagnostics.report(code, psi.span, message);
-    None
+    }
+}
+
+/// Whether there is a place where `roots` have values.
+fn conditions(dag: &mut Dag, place: &Place<'_>, roots: &[Id]) -> Result<(), QuantityProblem> {
+    let mut scratch = dag.clone();
+    match domain(&mut scratch, roots, &place.sides, &BTreeSet::new()).contradiction {
+        Some(needs) => {
+            *dag = scratch;
+            Err(QuantityProblem::NoValue(needs))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Whether `residual` is zero, with the formulas on whose domain: those that are given if they
@@ -123,30 +106,11 @@ fn decide_in(
     (verdict, all)
 }
 
-/// Reports a domain that is empty; whether it is not.
-fn report_empty(
-    place: &Place<'_>,
-    psi: &Conserved,
-    domain: &Domain,
-    diagnostics: &mut Diagnostics,
-) -> bool {
-    let Some(contradiction) = &domain.contradiction else {
-        return true;
-    };
-    let message = format!(
-        "`{}` and its rate have no value anywhere{}: they need {contradiction}",
-        psi.ident,
-        in_region(place.region)
-    );
-    diagnostics.report(codes::EMPTY_DOMAIN, psi.span, message);
-    false
-}
-
 /// On whose domain the proof holds: ψ, its derivatives, and the components of f that ψ depends
 /// on.
-pub(super) fn formulas(dag: &Dag, field: &[Id], quantity: &Quantity) -> Vec<Id> {
-    let mut roots = vec![quantity.psi, quantity.by_time];
-    for (&slope, &component) in quantity.gradient.iter().zip(field) {
+pub(super) fn formulas(dag: &Dag, field: &[Id], psi: Id, derivatives: &Derivatives) -> Vec<Id> {
+    let mut roots = vec![psi, derivatives.time_derivative];
+    for (&slope, &component) in derivatives.gradient.iter().zip(field) {
         roots.push(slope);
         if !dag.is_zero(slope) {
             roots.push(component);
@@ -164,12 +128,15 @@ fn is_by_construction(
     region: &Region,
     quantity: &Quantity,
 ) -> bool {
-    if !dag.is_zero(quantity.by_time) {
+    if !dag.is_zero(quantity.derivatives.time_derivative) {
         return false;
     }
     let mut paired = vec![false; variables.states.len()];
     for &(q, p) in &region.canonical {
-        let slopes = (quantity.gradient.get(q), quantity.gradient.get(p));
+        let slopes = (
+            quantity.derivatives.gradient.get(q),
+            quantity.derivatives.gradient.get(p),
+        );
         let field = (region.field.get(q), region.field.get(p));
         let (Some(&by_q), Some(&by_p), (Some(&of_q), Some(&of_p))) = (slopes.0, slopes.1, field)
         else {
@@ -186,7 +153,7 @@ fn is_by_construction(
             }
         }
     }
-    let unpaired = paired.iter().zip(&quantity.gradient);
+    let unpaired = paired.iter().zip(&quantity.derivatives.gradient);
     unpaired
         .filter(|(paired, _)| !**paired)
         .all(|(_, &slope)| dag.is_zero(slope))
@@ -199,26 +166,16 @@ fn assumed(
     variables: &Variables,
     region: &Region,
     quantity: &Quantity,
-    psi: &Conserved,
-    diagnostics: &mut Diagnostics,
-) -> Option<Conservation> {
-    let mut roots: Vec<Id> = quantity
-        .gradient
-        .iter()
+    rate: Id,
+) -> Result<Conservation, QuantityProblem> {
+    let mut roots: Vec<Id> = (quantity.derivatives.gradient.iter())
         .zip(&region.field)
         .map(|(&slope, &component)| dag.mul(slope, component))
         .collect();
-    roots.push(quantity.by_time);
+    roots.push(quantity.derivatives.time_derivative);
     let terms = roots.len();
-    roots.push(rate(
-        dag,
-        quantity.by_time,
-        &quantity.gradient,
-        &region.field,
-    ));
+    roots.push(rate);
     roots.extend(region.field.iter().copied().chain([quantity.psi]));
-    let name = &psi.ident;
-    let place = in_region(region);
     let mut largest = 0.0_f64;
     let mut trials = Trials::default();
     for point in points(dag, variables).take(MOST_TRIALS) {
@@ -233,14 +190,11 @@ fn assumed(
                 .into_iter()
                 .filter(|(name, _)| depends.contains(name))
                 .collect();
-            let message = format!(
-                "`{name}` is assumed to be conserved{place}, but d/dt {name} is {} at {}, where its terms are of size {}",
-                rounded(residual),
-                coordinates(&point),
-                rounded(size)
-            );
-            diagnostics.report(codes::ASSUMED_NOT_SMALL, psi.span, message);
-            return None;
+            return Err(QuantityProblem::NotSmall {
+                residual,
+                size,
+                point,
+            });
         }
         largest = largest.max(relative);
         if trials.usable == ENOUGH_POINTS {
@@ -248,15 +202,9 @@ fn assumed(
         }
     }
     if trials.usable < FEWEST_POINTS {
-        let message = format!(
-            "`{name}` is assumed to be conserved{place}, but that can be checked at {} of {MOST_TRIALS} points only, and {FEWEST_POINTS} are needed: {}",
-            trials.usable,
-            trials.why_not(&name.to_string())
-        );
-        diagnostics.report(codes::ASSUMED_UNCHECKED, psi.span, message);
-        return None;
+        return Err(QuantityProblem::Unchecked(trials));
     }
-    Some(Conservation::Assumed {
+    Ok(Conservation::Assumed {
         points: trials.usable,
         largest,
     })
@@ -264,13 +212,13 @@ fn assumed(
 
 /// The points at which ∂ₜψ + ∇ψ·f was evaluated.
 #[derive(Default)]
-struct Trials {
+pub(super) struct Trials {
     /// Where the residual says something.
-    usable: usize,
+    pub(super) usable: usize,
     /// Where ψ, f or a derivative has no value.
-    undefined: usize,
+    pub(super) undefined: usize,
     /// Where every term is zero, or is as small as its rounding error.
-    without_terms: usize,
+    pub(super) without_terms: usize,
 }
 
 impl Trials {
@@ -294,20 +242,5 @@ impl Trials {
         }
         self.usable += 1;
         Some((residual, size))
-    }
-
-    /// Why the other points say nothing.
-    fn why_not(&self, name: &str) -> String {
-        let no_value = |count: usize| format!("its formulas have no value at {count}");
-        let no_terms = |count: usize| {
-            format!("the terms of d/dt {name} are zero up to rounding errors at {count}")
-        };
-        match (self.undefined, self.without_terms) {
-            (undefined, 0) => no_value(undefined),
-            (0, without_terms) => no_terms(without_terms),
-            (undefined, without_terms) => {
-                format!("{}, and {}", no_value(undefined), no_terms(without_terms))
-            }
-        }
     }
 }

@@ -12,15 +12,13 @@
 
 use std::collections::BTreeMap;
 
-use super::message::in_region;
+use super::message::RegionProblem;
 use super::points::points;
-use super::{Quantity, Variables};
+use super::{Independence, Quantity, Variables};
 use crate::algebra::evaluate::{Interval, enclose};
+use crate::algebra::linear::determinant;
 use crate::algebra::normal_form::common_zeros;
 use crate::algebra::{Dag, Id, Name, evaluate, is_proved_zero};
-use crate::diagnostics::Diagnostics;
-use crate::diagnostics::catalogue::proofs as codes;
-use crate::model::{Independence, Region};
 
 /// Points at which gradients are compared.
 const SAMPLES: usize = 48;
@@ -34,64 +32,40 @@ const MOST_ROWS: usize = 4;
 /// … and told if it is written with this many nodes.
 const MOST_NODES: usize = 160;
 
-/// What is known of the independence of `quantities`; too many of them, and a proved
-/// dependence, are reported.
+/// What is known of the independence of `quantities`, or why there cannot be as many.
 pub(super) fn examine(
     dag: &mut Dag,
     variables: &Variables,
-    region: &Region,
     quantities: &[Quantity],
-    diagnostics: &mut Diagnostics,
-) -> Independence {
-    let n = variables.states.len();
-    let place = in_region(region);
-    if quantities.is_empty() {
-        return Independence::Nothing;
+) -> Result<Independence, RegionProblem> {
+    let (n, count) = (variables.states.len(), quantities.len());
+    if count == 0 {
+        // no rows are independent everywhere
+        return Ok(Independence::Proved {
+            factors: Vec::new(),
+            minors: Vec::new(),
+        });
     }
-    if let Some(first_too_many) = region.conserved.get(n) {
-        let message = format!(
-            "{} conserved quantities of {n} states depend on one another{place}: leave out {}",
-            quantities.len(),
-            quantities.len() - n
-        );
-        diagnostics.report(codes::TOO_MANY_QUANTITIES, first_too_many.span, message);
-        return Independence::Nothing;
+    if count > n {
+        return Err(RegionProblem::TooMany { states: n });
     }
-    let rows: Vec<&[Id]> = quantities.iter().map(|q| q.gradient.as_slice()).collect();
+    let rows: Vec<&[Id]> = (quantities.iter())
+        .map(|quantity| quantity.derivatives.gradient.as_slice())
+        .collect();
     let formulas: Vec<Id> = quantities.iter().map(|q| q.psi).collect();
     let sampled = sample(dag, variables, &rows, &formulas);
-    if let Some(dependent) = &sampled.dependent {
-        if is_proved_dependent(dag, &rows, dependent)
-            && let Some(quantity) = region.conserved.get(dependent.row)
-        {
-            let others: Vec<String> = region
-                .conserved
-                .iter()
-                .take(dependent.row)
-                .map(|other| format!("`{}`", other.ident))
-                .collect();
-            let message = format!(
-                "`{}` depends on {}{place}: their gradients are linearly dependent; remove it",
-                quantity.ident,
-                others.join(", ")
-            );
-            diagnostics.report(codes::DEPENDENT_QUANTITIES, quantity.span, message);
-        }
-        return Independence::Nothing;
+    if let Some(dependent) = &sampled.dependent
+        && is_proved_dependent(dag, &rows, dependent)
+    {
+        return Err(RegionProblem::Dependent { row: dependent.row });
     }
     if !sampled.independent {
-        return Independence::Nothing;
+        return Ok(Independence::Undecided);
     }
-    if quantities.len() == n
-        && quantities.iter().all(|quantity| quantity.autonomous)
-        && let Some(last) = region.conserved.last()
-    {
-        let message = format!(
-            "{n} independent conserved quantities of {n} states leave nothing to move{place}: declare one less, or none where the vector field is zero"
-        );
-        diagnostics.report(codes::NOTHING_MOVES, last.span, message);
+    if count == n && quantities.iter().all(|quantity| quantity.autonomous) {
+        return Err(RegionProblem::NothingMoves);
     }
-    set_of_dependence(dag, &rows).unwrap_or(Independence::Generic)
+    Ok(set_of_dependence(dag, &rows).unwrap_or(Independence::Generic))
 }
 
 /// What the sample points say.
@@ -283,28 +257,4 @@ fn choices(n: usize, count: usize, most: usize) -> Option<Vec<Vec<usize>>> {
         }
     }
     (subsets.len() <= most).then_some(subsets)
-}
-
-/// The determinant of the square matrix of `columns` of `rows`, by the first row.
-fn determinant(dag: &mut Dag, rows: &[&[Id]], columns: &[usize]) -> Id {
-    let Some((first, rest)) = rows.split_first() else {
-        return dag.integer(1);
-    };
-    let mut sum = dag.integer(0);
-    for (position, &column) in columns.iter().enumerate() {
-        let entry = match first.get(column) {
-            Some(&entry) if !dag.is_zero(entry) => entry,
-            _ => continue,
-        };
-        let mut others = columns.to_vec();
-        others.remove(position);
-        let minor = determinant(dag, rest, &others);
-        let term = dag.mul(entry, minor);
-        sum = if position % 2 == 0 {
-            dag.add(sum, term)
-        } else {
-            dag.sub(sum, term)
-        };
-    }
-    sum
 }

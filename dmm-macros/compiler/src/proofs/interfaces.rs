@@ -1,108 +1,77 @@
 //! Interfaces that cannot be crossed: the rate ∂ₜg + ∇g·f of the switching function is zero, or
 //! its sign is the same everywhere in a way that leads nothing across.
 
-use std::collections::BTreeMap;
+use super::Derivatives;
+use super::message::InterfaceProblem;
+use crate::algebra::evaluate::Interval;
+use crate::algebra::{Dag, Id, is_proved_zero, normalise};
+use crate::model::{Region, Sign};
 
-use super::{Variables, rate};
-use crate::algebra::evaluate::{Interval, enclose};
-use crate::algebra::{Dag, Id, differentiate, gradient, is_proved_zero, normalise};
-use crate::diagnostics::Diagnostics;
-use crate::diagnostics::catalogue::proofs as codes;
-use crate::model::{Interface, Model, Sign};
-
-/// Reports the interfaces of `model` that are constant, or that no trajectory crosses.
-pub(super) fn check(model: &mut Model, variables: &Variables, diagnostics: &mut Diagnostics) {
-    let dag = &mut model.dag;
-    for (index, interface) in model.interfaces.iter().enumerate() {
-        let g = interface.switching_function;
-        let name = &interface.ident;
-        let gradient = gradient(dag, g, &variables.states);
-        let by_time = differentiate(dag, g, &Model::time());
-        let derivatives = gradient.iter().copied().chain([by_time]);
-        let is_constant = derivatives.into_iter().all(|one| is_proved_zero(dag, one));
-        if is_constant {
-            let message = format!(
-                "the interface `{name}` is constant: all of its derivatives are zero, so nothing can cross it"
-            );
-            diagnostics.report(codes::CONSTANT_INTERFACE, interface.span, message);
-            continue;
-        }
-        let mut rates: Vec<(Option<Sign>, Motion)> = Vec::new();
-        for region in &model.regions {
-            let side = region.sides.iter().find(|side| side.interface == index);
-            let rate = rate(dag, by_time, &gradient, &region.field);
-            rates.push((side.map(|side| side.sign), motion(dag, rate)));
-        }
-        report(interface, &rates, diagnostics);
+/// By region, what is known of the rate of interface number `index`; or that the interface is
+/// constant, or that no trajectory crosses it.
+pub(super) fn examine(
+    dag: &mut Dag,
+    index: usize,
+    derivatives: &Derivatives,
+    regions: &[Region],
+) -> Result<Vec<Rate>, InterfaceProblem> {
+    let is_zero = |id: Id| is_proved_zero(dag, id);
+    if derivatives.gradient.iter().copied().all(is_zero) && is_zero(derivatives.time_derivative) {
+        return Err(InterfaceProblem::Constant);
     }
+    let mut rates = Vec::new();
+    let mut sides = Vec::new();
+    for region in regions {
+        let rate = derivatives.rate(dag, &region.field);
+        let rate = sign(dag, rate);
+        let side = region.sides.iter().find(|side| side.interface == index);
+        sides.extend(side.map(|side| (side.sign, rate)));
+        rates.push(rate);
+    }
+    if rates.iter().all(|&rate| rate == Rate::Zero) {
+        return Err(InterfaceProblem::NeverCrossed);
+    }
+    let all = |above: Rate, below: Rate| {
+        let holds = |&(sign, rate): &(Sign, Rate)| match sign {
+            Sign::Positive => rate == above,
+            Sign::Negative => rate == below,
+        };
+        sides.len() == rates.len() && sides.iter().all(holds)
+    };
+    if all(Rate::NotPositive, Rate::NotNegative) {
+        return Err(InterfaceProblem::AlwaysSliding);
+    }
+    if all(Rate::NotNegative, Rate::NotPositive) {
+        return Err(InterfaceProblem::AlwaysLeaving);
+    }
+    Ok(rates)
 }
 
 /// What is known of the sign of a rate, everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Motion {
+pub enum Rate {
     /// It is zero.
-    None,
+    Zero,
     /// It is nowhere negative.
-    Up,
+    NotNegative,
     /// It is nowhere positive.
-    Down,
+    NotPositive,
     /// Nothing.
     Unknown,
 }
 
-fn motion(dag: &mut Dag, rate: Id) -> Motion {
+fn sign(dag: &mut Dag, rate: Id) -> Rate {
     if is_proved_zero(dag, rate) {
-        return Motion::None;
+        return Rate::Zero;
     }
     let normal = normalise(dag, rate);
-    let ranges = [Some(rate), normal].map(|id| match id {
-        Some(id) => enclose(dag, &[id], &BTreeMap::new()).first().copied(),
-        None => None,
-    });
+    let ranges = [Some(rate), normal].map(|id| id.map(|id| Interval::of(dag, id)));
     let any = |holds: fn(Interval) -> bool| ranges.iter().flatten().any(|&range| holds(range));
     if any(Interval::is_not_negative) {
-        Motion::Up
+        Rate::NotNegative
     } else if any(Interval::is_not_positive) {
-        Motion::Down
+        Rate::NotPositive
     } else {
-        Motion::Unknown
-    }
-}
-
-fn report(interface: &Interface, rates: &[(Option<Sign>, Motion)], diagnostics: &mut Diagnostics) {
-    let name = &interface.ident;
-    if rates.iter().all(|(_, motion)| *motion == Motion::None) {
-        let message = format!(
-            "the interface `{name}` is never crossed: d/dt {name} = 0 in every region, so that each region is a system of its own"
-        );
-        diagnostics.report(codes::NEVER_CROSSED, interface.span, message);
-        return;
-    }
-    let sides: Vec<(Sign, Motion)> = rates
-        .iter()
-        .filter_map(|&(side, motion)| Some((side?, motion)))
-        .collect();
-    if sides.len() < rates.len() {
-        return;
-    }
-    let all = |above: Motion, below: Motion| {
-        sides.iter().all(|&(sign, motion)| {
-            let wanted = match sign {
-                Sign::Positive => above,
-                Sign::Negative => below,
-            };
-            motion == wanted
-        })
-    };
-    if all(Motion::Down, Motion::Up) {
-        let message = format!(
-            "the interface `{name}` cannot be crossed: d/dt {name} ≤ 0 where {name} > 0, and d/dt {name} ≥ 0 where {name} < 0, so that both sides push towards it"
-        );
-        diagnostics.report(codes::ALWAYS_SLIDING, interface.span, message);
-    } else if all(Motion::Up, Motion::Down) {
-        let message = format!(
-            "the interface `{name}` is never reached: d/dt {name} ≥ 0 where {name} > 0, and d/dt {name} ≤ 0 where {name} < 0, so that both sides lead away from it"
-        );
-        diagnostics.report(codes::ALWAYS_LEAVING, interface.span, message);
+        Rate::Unknown
     }
 }

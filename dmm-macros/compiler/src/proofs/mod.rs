@@ -1,6 +1,6 @@
-//! Model → proof that what it declares holds.
+//! Model → proved model: the proof that what it declares holds.
 //!
-//! The stage is [`check`]. In every region, each declared ψ has to satisfy
+//! The stage is [`prove`]. In every region, each declared ψ has to satisfy
 //!
 //! ```text
 //! ∂ₜψ + ∇ψ·f = 0
@@ -14,8 +14,8 @@
 //! well: ψ's gradients are independent, so that ΛΛᵀ has an inverse at generic points, they
 //! leave something to move, and an interface can be crossed.
 //!
-//! What was found is written into the model: [`Conserved::evidence`](crate::model::Conserved)
-//! and [`Region::independence`](crate::model::Region).
+//! What was found stays beside the model, in [`Proved`]: the gradients ∇ψ and ∇g, which no later
+//! stage takes again, and why each ψ is conserved.
 
 pub(crate) mod conditions;
 mod conservation;
@@ -24,6 +24,7 @@ mod interfaces;
 mod message;
 mod place;
 mod points;
+mod proved;
 mod signs;
 
 #[cfg(test)]
@@ -33,40 +34,68 @@ mod tests;
 
 use std::collections::BTreeSet;
 
-use crate::algebra::{Dag, Id, Name, differentiate, gradient, is_proved_zero};
+use crate::algebra::{Dag, Id, Name, is_proved_zero};
 use crate::diagnostics::Diagnostics;
-use crate::model::{
-    Conservation, DomainCondition, Independence, Model, Region, Sign, sides as sides_of,
+use crate::model::{Model, Region, Sign, sides as sides_of};
+pub use interfaces::Rate;
+pub use proved::{
+    Conservation, Derivatives, DomainCondition, Independence, Proved, ProvedInterface, ProvedRegion,
 };
 
-/// Proves what `model` declares; what is false or cannot be proved is reported.
-pub fn check(model: &mut Model, diagnostics: &mut Diagnostics) {
-    let variables = Variables::of(model);
-    for index in 0..model.regions.len() {
-        let (evidence, independence) = examine(model, &variables, index, diagnostics);
-        let Some(region) = model.regions.get_mut(index) else {
-            continue;
-        };
-        region.independence = independence;
-        for (conserved, evidence) in region.conserved.iter_mut().zip(evidence) {
-            conserved.evidence = evidence;
+/// Proves what `model` declares. What is false or cannot be proved is reported, and then there is
+/// no proved model.
+pub fn prove(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Proved> {
+    let before = diagnostics.len();
+    let variables = Variables::of(&model);
+    let Model {
+        dag,
+        interfaces,
+        regions,
+        ..
+    } = &mut model;
+    let proved: Vec<Option<ProvedRegion>> = (regions.iter())
+        .map(|region| {
+            let sides = sides_of(interfaces, region);
+            let place = Place { region, sides };
+            region_proofs(dag, &variables, &place, diagnostics)
+        })
+        .collect();
+    let mut proved_interfaces = Vec::new();
+    for (index, interface) in interfaces.iter().enumerate() {
+        let derivatives = Derivatives::of(dag, interface.switching_function, &variables.states);
+        match interfaces::examine(dag, index, &derivatives, regions) {
+            Ok(rates) => proved_interfaces.push(ProvedInterface { derivatives, rates }),
+            Err(problem) => problem.report(interface, diagnostics),
         }
     }
-    interfaces::check(model, &variables, diagnostics);
+    let regions: Vec<ProvedRegion> = proved.into_iter().collect::<Option<_>>()?;
+    (diagnostics.len() == before).then_some(Proved {
+        model,
+        interfaces: proved_interfaces,
+        regions,
+    })
 }
 
 /// Where ψ is conserved in these regions, if it was proved to be: on the domain of ψ, of its
 /// derivatives, and of the components of f that it depends on.
-pub fn domain(model: &mut Model, regions: &[usize], psi: Id) -> Vec<DomainCondition> {
-    let states = model.state_names();
-    let quantity = Quantity::new(&mut model.dag, &states, psi);
+pub fn domain(
+    model: &mut Model,
+    regions: &[usize],
+    psi: Id,
+    derivatives: &Derivatives,
+) -> Vec<DomainCondition> {
     let mut formulas = Vec::new();
     let mut sides = Vec::new();
     for region in regions
         .iter()
         .filter_map(|&region| model.regions.get(region))
     {
-        formulas.extend(conservation::formulas(&model.dag, &region.field, &quantity));
+        formulas.extend(conservation::formulas(
+            &model.dag,
+            &region.field,
+            psi,
+            derivatives,
+        ));
         if regions.len() == 1 {
             sides = sides_of(&model.interfaces, region);
         }
@@ -74,38 +103,50 @@ pub fn domain(model: &mut Model, regions: &[usize], psi: Id) -> Vec<DomainCondit
     conditions::domain(&mut model.dag, &formulas, &sides, &BTreeSet::new()).conditions
 }
 
-/// What is known of the conserved quantities of region number `index`, and of their
-/// independence.
-fn examine(
-    model: &mut Model,
+/// What is known of the conserved quantities of a region and of their independence; nothing if
+/// something is wrong, which is reported.
+fn region_proofs(
+    dag: &mut Dag,
     variables: &Variables,
-    index: usize,
+    place: &Place<'_>,
     diagnostics: &mut Diagnostics,
-) -> (Vec<Conservation>, Independence) {
-    let dag = &mut model.dag;
-    let Some(region) = model.regions.get(index) else {
-        return (Vec::new(), Independence::Nothing);
-    };
-    let place = Place {
-        region,
-        sides: sides_of(&model.interfaces, region),
-    };
-    let mut evidence = Vec::new();
+) -> Option<ProvedRegion> {
+    let region = place.region;
     let mut quantities = Vec::new();
+    let mut evidence = Vec::new();
     for psi in &region.conserved {
-        match conservation::examine(dag, variables, &place, psi, diagnostics) {
-            Some((known, quantity)) => {
-                evidence.push(known);
-                quantities.push(quantity);
-            }
-            None => evidence.push(Conservation::Unknown),
+        let quantity = Quantity::new(dag, &variables.states, psi.psi);
+        match conservation::examine(dag, variables, place, psi, &quantity) {
+            Ok(known) => evidence.push(known),
+            Err(problem) => problem.report(dag, region, psi, diagnostics),
         }
+        quantities.push(quantity);
     }
-    if quantities.len() < region.conserved.len() {
-        return (evidence, Independence::Nothing);
+    if evidence.len() < quantities.len() {
+        return None;
     }
-    let independence = independence::examine(dag, variables, region, &quantities, diagnostics);
-    (evidence, independence)
+    let independence = match independence::examine(dag, variables, &quantities) {
+        Ok(independence) => independence,
+        Err(problem) => {
+            problem.report(region, diagnostics);
+            return None;
+        }
+    };
+    let (multiplier, time_derivative) = (quantities.into_iter())
+        .map(|quantity| {
+            let Derivatives {
+                gradient,
+                time_derivative,
+            } = quantity.derivatives;
+            (gradient, time_derivative)
+        })
+        .unzip();
+    Some(ProvedRegion {
+        multiplier,
+        time_derivative,
+        evidence,
+        independence,
+    })
 }
 
 /// The variables of a model.
@@ -148,33 +189,19 @@ struct Place<'a> {
 /// A conserved quantity with its derivatives.
 struct Quantity {
     psi: Id,
-    /// ∇ψ
-    gradient: Vec<Id>,
-    /// ∂ₜψ
-    by_time: Id,
+    derivatives: Derivatives,
     /// Whether ∂ₜψ is zero.
     autonomous: bool,
 }
 
 impl Quantity {
     fn new(dag: &mut Dag, states: &[Name], psi: Id) -> Self {
-        let gradient = gradient(dag, psi, states);
-        let by_time = differentiate(dag, psi, &Model::time());
+        let derivatives = Derivatives::of(dag, psi, states);
+        let autonomous = is_proved_zero(dag, derivatives.time_derivative);
         Self {
             psi,
-            gradient,
-            by_time,
-            autonomous: is_proved_zero(dag, by_time),
+            derivatives,
+            autonomous,
         }
     }
-}
-
-/// ∂ₜu + ∇u·f
-fn rate(dag: &mut Dag, by_time: Id, gradient: &[Id], field: &[Id]) -> Id {
-    let terms: Vec<Id> = gradient
-        .iter()
-        .zip(field)
-        .map(|(&a, &b)| dag.mul(a, b))
-        .collect();
-    dag.sum([by_time].into_iter().chain(terms))
 }

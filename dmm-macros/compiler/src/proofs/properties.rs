@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 
+use super::DomainCondition;
 use super::conditions::domain;
 use crate::algebra::normal_form::decide_zero_on;
 use crate::algebra::{Dag, Function, Id, Name, Verdict, evaluate_bounded};
-use crate::model::DomainCondition;
 
 /// A first-order error bound is trusted up to this factor.
 const SAFETY: f64 = 64.0;

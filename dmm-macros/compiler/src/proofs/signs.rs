@@ -19,7 +19,7 @@ use super::conditions::domain;
 use super::place::decide;
 use super::{Place, Variables};
 use crate::algebra::evaluate::Interval;
-use crate::algebra::{Dag, Function, Id, Math, Name, Verdict, evaluate::enclose, normalise};
+use crate::algebra::{Dag, Function, Id, Math, Name, Verdict, normalise};
 use crate::model::positive;
 
 /// Bases of which every combination of signs is tried.
@@ -78,17 +78,12 @@ fn powers(dag: &Dag, variables: &Variables, roots: &[Id]) -> Vec<(Id, Id)> {
         if let Math::Pow([base, exponent]) = dag[id]
             && dag.as_constant(exponent).is_none()
             && dag.variables([exponent]).iter().all(is_parameter)
-            && !range(dag, base).is_not_negative()
+            && !Interval::of(dag, base).is_not_negative()
         {
             powers.push((base, exponent));
         }
     }
     powers
-}
-
-fn range(dag: &Dag, id: Id) -> Interval {
-    let ranges = enclose(dag, &[id], &Default::default());
-    ranges.first().copied().unwrap_or(Interval::WHOLE)
 }
 
 /// Whether `roots` are defined at more points if the bases `with` may be negative, and not only

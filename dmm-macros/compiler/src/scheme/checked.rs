@@ -18,18 +18,19 @@ use std::collections::BTreeSet;
 
 use super::strategy::Strategy;
 use super::{CheckedCondition, SwitchingScheme, proofs};
-use crate::algebra::{Dag, Function, Id, Math, Name};
-use crate::model::{Conservation, DomainCondition, Model, Parameter, Region, Sign};
+use crate::algebra::{Dag, Id, Math, Name};
+use crate::model::{Model, Parameter, Region, Sign};
 use crate::proofs::conditions::{conditions_of, domain, follows};
+use crate::proofs::{Conservation, Derivatives, DomainCondition};
 use jumps::jumps;
 
-/// The conditions of a region that a run has to check, if ψ is conserved on `sides` by f^τ as
-/// `strategy` makes it.
+/// The conditions of a region that a run has to check, if ψ is conserved on `sides` on the grounds
+/// of `evidence`, and by f^τ as `strategy` makes it.
 pub(super) fn checked(
     dag: &mut Dag,
     (states, parameters): (&[Name], &[Parameter]),
-    (index, region): (usize, &Region),
-    sides: &[(Id, Sign)],
+    (index, region, sides): (usize, &Region, &[(Id, Sign)]),
+    evidence: &[Conservation],
     strategy: &Strategy,
 ) -> Vec<CheckedCondition> {
     // the scheme of a region without such conditions is as if nothing had been asked
@@ -43,8 +44,8 @@ pub(super) fn checked(
         Some((_, quantities)) => quantities.push(quantity),
         None => found.push((condition, vec![quantity])),
     };
-    for (quantity, psi) in region.conserved.iter().enumerate() {
-        if let Conservation::Proved(conditions) = &psi.evidence {
+    for (quantity, (psi, evidence)) in region.conserved.iter().zip(evidence).enumerate() {
+        if let Conservation::Proved(conditions) = evidence {
             for &condition in conditions {
                 let is_sign = !matches!(condition, DomainCondition::NonZero(_));
                 if is_sign && !ends_code(scratch, condition, states, region, sides, strategy) {
@@ -67,13 +68,14 @@ pub(super) fn checked(
         .into_iter()
         .map(|(condition, quantities)| {
             let function = function(dag, condition);
+            let derivatives = Derivatives::of(dag, function, states);
             let depends_on = dag.variables([function]);
             CheckedCondition {
                 region: index,
                 condition,
                 quantities,
                 function,
-                derivatives: SwitchingScheme::of(dag, function, states),
+                switching: SwitchingScheme::of(dag, function, derivatives, states),
                 is_fixed: !depends_on.iter().any(|name| arguments.contains(name)),
             }
         })
@@ -126,7 +128,7 @@ fn ends_code(
 fn ends(dag: &mut Dag, condition: DomainCondition, roots: &[Id], sides: &[(Id, Sign)]) -> bool {
     let nodes: Vec<Id> = (dag.reachable(roots.iter().copied()).into_iter())
         .filter(|&id| match dag[id] {
-            Math::Call(Function::Sqrt | Function::Ln | Function::Asin | Function::Acos, _) => true,
+            Math::Call(function, _) => function.properties().domain.has_border(),
             Math::Pow([_, v]) => dag.as_constant(v).is_some_and(|v| !v.is_integer()),
             _ => false,
         })
@@ -166,7 +168,7 @@ mod tests {
         let text = |checked: &super::CheckedCondition| {
             let region = &scheme.model.regions[checked.region];
             let condition = checked.condition.statement(scheme.dag());
-            format!("{}: {condition}", super::super::quantities(region, checked))
+            format!("{}: {condition}", checked.names(region))
         };
         scheme.checked_conditions().map(text).collect()
     }

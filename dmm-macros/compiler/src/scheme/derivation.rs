@@ -3,25 +3,37 @@
 
 use super::checked::checked;
 use super::degree::is_affine;
+use super::proofs::Identity;
 use super::strategy::{Context, choose, midpoint};
-use super::{Proofs, RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
-use crate::algebra::{Dag, Id, Name, differentiate, divided_difference, is_proved_zero, jacobian};
+use super::{RegionScheme, Scheme, SwitchingScheme, proofs, solvability};
+use crate::algebra::{Counterexample, Dag, Id, Name, divided_difference, jacobian};
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::scheme as codes;
-use crate::model::{Model, Region, sides};
+use crate::model::{Model, sides};
+use crate::proofs::{Proved, ProvedRegion};
 
-/// Derives the scheme of `model`. What cannot be derived, and an identity that fails, is
+/// Derives the scheme of a proved model. What cannot be derived, and an identity that fails, is
 /// reported, and then there is no scheme.
-pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme> {
+pub fn derive(proved: Proved, diagnostics: &mut Diagnostics) -> Option<Scheme> {
+    let levels: Vec<Vec<usize>> = (0..proved.regions.len())
+        .map(|region| proved.levels(region))
+        .collect();
+    let Proved {
+        mut model,
+        interfaces,
+        regions,
+    } = proved;
     let states = model.state_names();
-    let interfaces: Vec<SwitchingScheme> = model
-        .interfaces
-        .iter()
-        .map(|interface| SwitchingScheme::of(&mut model.dag, interface.switching_function, &states))
+    let interfaces: Vec<SwitchingScheme> = (model.interfaces.iter())
+        .zip(interfaces)
+        .map(|(interface, proved)| {
+            let g = interface.switching_function;
+            SwitchingScheme::of(&model.dag, g, proved.derivatives, &states)
+        })
         .collect();
     let before = diagnostics.len();
-    let regions = (0..model.regions.len())
-        .map(|region| derive_region(&mut model, region, &states, &interfaces, diagnostics))
+    let regions = (regions.into_iter().zip(levels).enumerate())
+        .map(|(index, proved)| derive_region(&mut model, index, proved, &states, diagnostics))
         .collect();
     (diagnostics.len() == before).then_some(Scheme {
         model,
@@ -32,25 +44,18 @@ pub fn derive(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Scheme>
 
 fn derive_region(
     model: &mut Model,
-    region: usize,
+    index: usize,
+    (proved, levels): (ProvedRegion, Vec<usize>),
     states: &[Name],
-    interfaces: &[SwitchingScheme],
     diagnostics: &mut Diagnostics,
 ) -> RegionScheme {
     let dag = &mut model.dag;
-    let index = region;
     let region = &model.regions[index];
     let time = Model::time();
     let psi: Vec<Id> = region.conserved.iter().map(|one| one.psi).collect();
     let autonomous = !dag
         .variables(region.field.iter().chain(&psi).copied())
         .contains(&time);
-
-    let multiplier = jacobian(dag, &psi, states);
-    let time_derivative: Vec<Id> = psi
-        .iter()
-        .map(|&psi| differentiate(dag, psi, &time))
-        .collect();
     let (discrete_multiplier, discrete_time_derivative) = discretise(dag, &psi, states);
     let mean: Vec<Id> = region
         .field
@@ -61,32 +66,19 @@ fn derive_region(
         states,
         field: &region.field,
         mean: &mean,
-        multiplier: &multiplier,
-        time_derivative: &time_derivative,
+        multiplier: &proved.multiplier,
+        time_derivative: &proved.time_derivative,
         discrete_multiplier: &discrete_multiplier,
         discrete_time_derivative: &discrete_time_derivative,
         canonical: &region.canonical,
     };
     let (strategy, refusals) = choose(dag, &context);
     let sides = sides(&model.interfaces, region);
-    let proofs =
-        proofs::prove(
-            dag,
-            &context,
-            (&psi, &sides),
-            &strategy,
-            &mut |identity, at| {
-                diagnostics.report(
-            codes::IDENTITY,
-            region.ident.span(),
-            format!("internal error of the compiler: the derived scheme violates {identity} {at}"),
-        );
-            },
-        );
-    let proofs = Proofs {
-        levels: levels(dag, region, interfaces),
-        ..proofs
-    };
+    let (proofs, violations) = proofs::prove(dag, &context, (&psi, &sides), &strategy);
+    for (identity, counterexample) in violations {
+        let message = violation(identity, &counterexample);
+        diagnostics.report(codes::IDENTITY, region.ident.span(), message);
+    }
     let field = region.field.iter().copied();
     let affine = !dag.variables(field.clone()).contains(&time) && is_affine(dag, field, states);
     let arguments = [states, &[time]].concat();
@@ -95,10 +87,11 @@ fn derive_region(
     let jacobian = jacobian(dag, &region.field, states);
     let solvability = solvability::classify(dag, &strategy, states, autonomous);
     let variables = (states, model.parameters.as_slice());
-    let checked = checked(dag, variables, (index, region), &sides, &strategy);
+    let place = (index, region, sides.as_slice());
+    let checked = checked(dag, variables, place, &proved.evidence, &strategy);
     RegionScheme {
-        multiplier,
-        time_derivative,
+        proved,
+        levels,
         discrete_multiplier,
         discrete_time_derivative,
         strategy,
@@ -111,25 +104,6 @@ fn derive_region(
         proofs,
         checked,
     }
-}
-
-/// The interfaces of the region that its flow never crosses: ∂ₜg + ∇g·f = 0 is proved.
-fn levels(dag: &mut Dag, region: &Region, interfaces: &[SwitchingScheme]) -> Vec<usize> {
-    let mut levels = Vec::new();
-    for side in &region.sides {
-        let Some(switching) = interfaces.get(side.interface) else {
-            continue;
-        };
-        let mut terms = vec![switching.time_derivative];
-        for (&slope, &component) in switching.gradient.iter().zip(&region.field) {
-            terms.push(dag.mul(slope, component));
-        }
-        let rate = dag.sum(terms);
-        if is_proved_zero(dag, rate) {
-            levels.push(side.interface);
-        }
-    }
-    levels
 }
 
 /// Λ^τ and ∂ₜ^τψ: the symmetric divided differences of ψ by every state and by the time.
@@ -148,4 +122,21 @@ fn discretise(dag: &mut Dag, psi: &[Id], states: &[Name]) -> (Vec<Vec<Id>>, Vec<
             }
         })
         .unzip()
+}
+
+/// How an identity that is false is told.
+fn violation(identity: Identity, counterexample: &Counterexample) -> String {
+    let identity = match identity {
+        Identity::Telescopes => "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ",
+        Identity::Conserves => "Λ^τ f^τ + ∂ₜ^τψ = 0",
+        Identity::Consistent => "f^τ(t, x, t, x) = f(t, x)",
+    };
+    let point: Vec<String> = (counterexample.point.iter())
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    format!(
+        "internal error of the compiler: the derived scheme violates {identity} by {} at {}",
+        counterexample.value,
+        point.join(", ")
+    )
 }

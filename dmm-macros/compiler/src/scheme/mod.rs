@@ -1,6 +1,6 @@
-//! The scheme: what the Discrete Multiplier Method derives from a [`Model`].
+//! The scheme: what the Discrete Multiplier Method derives from a proved [`Model`].
 //!
-//! [`derive()`] takes a model and gives its scheme. A one-step map x₁ = x₀ + τ f^τ conserves ψ
+//! [`derive()`] takes a proved model and gives its scheme. A one-step map x₁ = x₀ + τ f^τ conserves ψ
 //! exactly if a discrete multiplier Λ^τ and ∂ₜ^τψ telescope and f^τ is orthogonal to them
 //! (Wan, Bihlo & Nave 2017):
 //!
@@ -14,19 +14,18 @@
 mod checked;
 mod degree;
 mod derivation;
-mod findings;
 mod proofs;
 mod solvability;
 mod strategy;
 mod switching;
 
 use crate::algebra::{Dag, Id};
-use crate::model::{DomainCondition, Model};
+use crate::model::{Model, Region};
+use crate::proofs::{DomainCondition, ProvedRegion};
 pub use derivation::derive;
-pub use findings::{Finding, Grounds, findings, quantities};
 pub use proofs::{Evidence, Proofs};
 pub use solvability::Solvability;
-pub use strategy::{Explicit, Obstacle, Pairing, Refusal, Strategy};
+pub use strategy::{Conditional, Explicit, Obstacle, Pairing, Refusal, Strategy};
 pub use switching::SwitchingScheme;
 
 /// The derived integrator of a whole system.
@@ -43,10 +42,10 @@ pub struct Scheme {
 /// The derived scheme of one region. Ends of a step are the variables `x₀`, `x₁`, `t₀`, `t₁`.
 #[derive(Debug)]
 pub struct RegionScheme {
-    /// Λ = ∇ψ, M×N, over `t` and the states.
-    pub multiplier: Vec<Vec<Id>>,
-    /// ∂ₜψ, M, over `t` and the states.
-    pub time_derivative: Vec<Id>,
+    /// What was proved of the region, with Λ = ∇ψ and ∂ₜψ.
+    pub proved: ProvedRegion,
+    /// The interfaces that the flow of the region never crosses: see [`Proved::levels`](crate::proofs::Proved::levels).
+    pub levels: Vec<usize>,
     /// Λ^τ, M×N, over the two ends.
     pub discrete_multiplier: Vec<Vec<Id>>,
     /// ∂ₜ^τψ, M, over the two ends.
@@ -86,12 +85,20 @@ pub struct CheckedCondition {
     /// What is positive where the condition holds; of u ≠ 0 it is u, which keeps its sign.
     pub function: Id,
     /// Its derivatives.
-    pub derivatives: SwitchingScheme,
+    pub switching: SwitchingScheme,
     /// Whether the condition is one on parameters alone.
     pub is_fixed: bool,
 }
 
 impl CheckedCondition {
+    /// The names of its quantities, which are those of `region`.
+    pub fn names(&self, region: &Region) -> String {
+        let quantities = self.quantities.iter();
+        let names = quantities.filter_map(|&index| region.conserved.get(index));
+        let names = names.map(|psi| psi.ident.to_string().trim_start_matches("r#").to_owned());
+        names.collect::<Vec<String>>().join(", ")
+    }
+
     /// Whether the function may have either sign, and has to keep it.
     pub fn keeps_sign(&self) -> bool {
         matches!(self.condition, DomainCondition::NonZero(_))

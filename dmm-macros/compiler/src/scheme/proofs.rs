@@ -11,8 +11,11 @@ use std::collections::HashMap;
 
 use super::strategy::minimal_norm::symbols;
 use super::strategy::{Context, Strategy, cross_product, skew_pairing};
+use crate::algebra::linear::dot;
 use crate::algebra::normal_form::decide_zero_on;
-use crate::algebra::{Dag, Function, Id, Math, Name, PairFunction, Verdict, at_end, at_start};
+use crate::algebra::{
+    Counterexample, Dag, Function, Id, Math, Name, PairFunction, Verdict, at_end, at_start,
+};
 use crate::model::{Model, Sign, positive};
 
 /// What is known of an identity that a scheme rests on. One that is false is a diagnostic.
@@ -33,16 +36,23 @@ pub struct Proofs {
     pub conserves: Evidence,
     /// f^τ(t, x, t, x) = f(t, x)
     pub consistent: Evidence,
-    /// The interfaces of the region whose switching function is proved to be constant along
-    /// its flow, as indices in [`Model::interfaces`].
-    pub levels: Vec<usize>,
 }
 
-/// What is done with an identity that is false: its name and where it fails.
-type Report<'a> = &'a mut dyn FnMut(&str, String);
+/// An identity that a scheme rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Identity {
+    /// Λ^τ Δx + ∂ₜ^τψ Δt = Δψ
+    Telescopes,
+    /// Λ^τ f^τ + ∂ₜ^τψ = 0
+    Conserves,
+    /// f^τ(t, x, t, x) = f(t, x)
+    Consistent,
+}
 
-/// Proves the identities of what was derived from `psi` in a region with these `sides`; one that
-/// is false is reported.
+/// Identities that are false, each with a point.
+pub(super) type Violations = Vec<(Identity, Counterexample)>;
+
+/// Proves the identities of what was derived from `psi` in a region with these `sides`.
 ///
 /// f^τ(t, x, t, x) = f(t, x) is asked where every component of f and Λ has a value: one
 /// component of f^τ may be made from another one of f.
@@ -51,13 +61,25 @@ pub(super) fn prove(
     context: &Context<'_>,
     (psi, sides): (&[Id], &[(Id, Sign)]),
     strategy: &Strategy,
-    report: Report<'_>,
-) -> Proofs {
+) -> (Proofs, Violations) {
+    let mut violations = Violations::new();
     let telescopes = telescoping(dag, context, psi);
     let conserves = conservation(dag, context, strategy);
     let consistent = consistency(dag, context, strategy);
-    let telescopes = all_zero(dag, (&telescopes, &[]), "Λ^τ Δx + ∂ₜ^τψ Δt = Δψ", report);
-    let conserves = all_zero(dag, (&conserves, &[]), "Λ^τ f^τ + ∂ₜ^τψ = 0", report);
+    let mut all_zero = |dag: &mut Dag, identity, roots: &[Id], domain: &[Id]| {
+        let mut evidence = Evidence::Proved;
+        for &root in roots {
+            match decide_zero_on(dag, root, domain) {
+                Verdict::Proved => continue,
+                Verdict::Undecided | Verdict::Exhausted => {}
+                Verdict::Refuted(found) => violations.push((identity, found)),
+            }
+            evidence = Evidence::NotProved;
+        }
+        evidence
+    };
+    let telescopes = all_zero(dag, Identity::Telescopes, &telescopes, &[]);
+    let conserves = all_zero(dag, Identity::Conserves, &conserves, &[]);
     let scratch = &mut dag.clone();
     let mut domain: Vec<Id> = psi.iter().chain(context.field).copied().collect();
     domain.extend(context.multiplier.iter().flatten());
@@ -65,42 +87,12 @@ pub(super) fn prove(
         domain.push(scratch.call(Function::Ln, side));
     }
     domain.retain(|&formula| scratch.as_constant(formula).is_none());
-    let identity = "f^τ(t, x, t, x) = f(t, x)";
-    Proofs {
+    let proofs = Proofs {
         telescopes,
         conserves,
-        consistent: all_zero(scratch, (&consistent, &domain), identity, report),
-        levels: Vec::new(),
-    }
-}
-
-/// Whether `roots` are zero where they and `domain` have values.
-fn all_zero(
-    dag: &mut Dag,
-    (roots, domain): (&[Id], &[Id]),
-    identity: &str,
-    report: Report<'_>,
-) -> Evidence {
-    let mut evidence = Evidence::Proved;
-    for &root in roots {
-        match decide_zero_on(dag, root, domain) {
-            Verdict::Proved => {}
-            Verdict::Undecided | Verdict::Exhausted => evidence = Evidence::NotProved,
-            Verdict::Refuted(counterexample) => {
-                evidence = Evidence::NotProved;
-                let point: Vec<String> = counterexample
-                    .point
-                    .iter()
-                    .map(|(name, value)| format!("{name} = {value}"))
-                    .collect();
-                report(
-                    identity,
-                    format!("by {} at {}", counterexample.value, point.join(", ")),
-                );
-            }
-        }
-    }
-    evidence
+        consistent: all_zero(scratch, Identity::Consistent, &consistent, &domain),
+    };
+    (proofs, violations)
 }
 
 /// Λ^τ Δx + ∂ₜ^τψ Δt − Δψ
@@ -216,11 +208,6 @@ fn variables(dag: &mut Dag, letter: &str, count: usize) -> Vec<Id> {
         .collect()
 }
 
-fn dot(dag: &mut Dag, a: &[Id], b: &[Id]) -> Id {
-    let terms: Vec<Id> = a.iter().zip(b).map(|(&a, &b)| dag.mul(a, b)).collect();
-    dag.sum(terms)
-}
-
 /// f^τ(t, x, t, x) − f(t, x). The minimal-norm correction vanishes at coinciding ends if Λ^τ
 /// and ∂ₜ^τψ become Λ and ∂ₜψ there, because ψ is conserved by f.
 fn consistency(dag: &mut Dag, context: &Context<'_>, strategy: &Strategy) -> Vec<Id> {
@@ -284,23 +271,9 @@ pub(super) fn coincide(dag: &mut Dag, root: Id, states: &[Name]) -> Id {
 
 /// A divided difference at coinciding arguments: the derivative of its function.
 fn confluent(dag: &mut Dag, function: PairFunction, u: Id) -> Id {
-    let one = dag.integer(1);
-    match function {
-        PairFunction::LnDd => dag.div(one, u),
-        PairFunction::AsinDd => {
-            let square = dag.powi(u, 2);
-            let cosine = dag.sub(one, square);
-            let cosine = dag.call(Function::Sqrt, cosine);
-            dag.div(one, cosine)
-        }
-        PairFunction::AtanDd => {
-            let square = dag.powi(u, 2);
-            let denominator = dag.add(one, square);
-            dag.div(one, denominator)
-        }
+    match function.prime() {
+        Some(_) => function.of().derivative(dag, u),
         // derivatives of divided differences are not part of f^τ
-        PairFunction::LnDdPrime | PairFunction::AsinDdPrime | PairFunction::AtanDdPrime => {
-            dag.pair(function, u, u)
-        }
+        None => dag.pair(function, u, u),
     }
 }

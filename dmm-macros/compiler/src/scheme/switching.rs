@@ -2,16 +2,15 @@
 //! ∂ₜg and ∇g.
 
 use super::degree::degree;
-use crate::algebra::{Dag, Id, Name, differentiate, gradient};
+use crate::algebra::{Dag, Id, Name};
 use crate::model::Model;
+use crate::proofs::Derivatives;
 
 /// Derivatives of a switching function, over `t` and the states.
 #[derive(Debug)]
 pub struct SwitchingScheme {
-    /// ∂ₜg
-    pub time_derivative: Id,
-    /// ∇g
-    pub gradient: Vec<Id>,
+    /// ∂ₜg and ∇g.
+    pub derivatives: Derivatives,
     /// Whether g does not depend on the time.
     pub autonomous: bool,
     /// The degree of g as a polynomial in t and x, if it is one.
@@ -19,12 +18,11 @@ pub struct SwitchingScheme {
 }
 
 impl SwitchingScheme {
-    /// The derivatives of `function` by the time and `states`.
-    pub(super) fn of(dag: &mut Dag, function: Id, states: &[Name]) -> Self {
+    /// What is known of `function` over the time and `states`, with its derivatives.
+    pub(super) fn of(dag: &Dag, function: Id, derivatives: Derivatives, states: &[Name]) -> Self {
         let arguments = [states, &[Model::time()]].concat();
         Self {
-            time_derivative: differentiate(dag, function, &Model::time()),
-            gradient: gradient(dag, function, states),
+            derivatives,
             autonomous: !dag.variables([function]).contains(&Model::time()),
             degree: degree(dag, [function], &arguments),
         }

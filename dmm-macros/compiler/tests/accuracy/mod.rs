@@ -157,7 +157,8 @@ fn derived(
     match quantity {
         Quantity::VectorField => return Some(declared.field.clone()),
         Quantity::Conserved => return Some(psi),
-        Quantity::Multiplier => return Some(row_by_row(&psi, &region.multiplier)),
+        Quantity::Multiplier => return Some(row_by_row(&psi, &region.proved.multiplier)),
+        Quantity::Jacobian => return Some(region.jacobian.concat()),
         Quantity::ConservedSize => return None,
         _ => {}
     }

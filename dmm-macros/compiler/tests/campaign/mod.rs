@@ -15,8 +15,9 @@ mod term;
 pub(crate) mod truth;
 
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::model::{Conservation, Conserved, DomainCondition, Model};
+use dmm_compiler::model::{Conserved, Model};
 use dmm_compiler::program::{Functions, Program, Quantity};
+use dmm_compiler::proofs::{Conservation, DomainCondition, Proved};
 use dmm_compiler::{check, proofs, scheme, syntax};
 
 use arithmetic::doubles;
@@ -115,17 +116,17 @@ fn judge(family: usize, declaration: String, random: &mut Random) -> Case {
         }
         check::resolve(declaration, &mut diagnostics)
     });
-    let Some(mut model) = model else {
+    let Some(model) = model else {
         case.remarks = diagnostics.messages();
         return case;
     };
     case.truth = truth_of(&model, random);
-    proofs::check(&mut model, &mut diagnostics);
+    let proved = proofs::prove(model, &mut diagnostics);
     let messages = diagnostics.messages();
     case.answer = answer(&messages);
     case.remarks = messages;
-    if case.answer == Answer::Proved {
-        beyond_conditions(model, &mut case, random);
+    if let Some(proved) = proved {
+        beyond_conditions(proved, &mut case, random);
     }
     case
 }
@@ -161,9 +162,9 @@ fn answer(messages: &[String]) -> Answer {
 }
 
 /// Runs the emitted operations on the other side of the conditions of the proofs.
-fn beyond_conditions(model: Model, case: &mut Case, random: &mut Random) {
+fn beyond_conditions(proved: Proved, case: &mut Case, random: &mut Random) {
     let mut diagnostics = Diagnostics::new();
-    let Some(scheme) = scheme::derive(model, &mut diagnostics) else {
+    let Some(scheme) = scheme::derive(proved, &mut diagnostics) else {
         case.answer = Answer::Other;
         case.remarks = diagnostics.messages();
         return;
@@ -172,7 +173,8 @@ fn beyond_conditions(model: Model, case: &mut Case, random: &mut Random) {
     for (index, region) in scheme.model.regions.iter().enumerate() {
         let functions = &program.dynamics[index].functions;
         for (quantity, psi) in region.conserved.iter().enumerate() {
-            let Conservation::Proved(conditions) = &psi.evidence else {
+            let evidence = &scheme.regions[index].proved.evidence[quantity];
+            let Conservation::Proved(conditions) = evidence else {
                 continue;
             };
             for &condition in conditions {

@@ -223,17 +223,14 @@ impl Order<'_> {
             }
             Recurrence::Pair {
                 functions,
+                is_negative,
                 argument,
                 derivative,
                 places: [s, c],
                 own,
             } => {
                 self.derivative(argument, derivative);
-                let sign = if functions[0] == Function::Sin {
-                    -1.0
-                } else {
-                    1.0
-                };
+                let sign = if is_negative { -1.0 } else { 1.0 };
                 let values = match k {
                     0 => functions.map(|one| call(one, self.value(argument))),
                     _ => [
@@ -248,6 +245,7 @@ impl Order<'_> {
             Recurrence::Computed(own) => self.at(own, k),
             Recurrence::Tangent {
                 function,
+                is_negative,
                 argument,
                 derivative,
                 own,
@@ -259,11 +257,7 @@ impl Order<'_> {
                     _ => self.integral(derivative, partner),
                 };
                 self.set(own, k, value);
-                let sign = if function == Function::Tanh {
-                    -1.0
-                } else {
-                    1.0
-                };
+                let sign = if is_negative { -1.0 } else { 1.0 };
                 self.set(
                     partner,
                     k,

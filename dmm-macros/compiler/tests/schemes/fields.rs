@@ -116,7 +116,7 @@ fn kepler_refuses_the_cross_product_where_its_invariants_become_dependent() {
     let [skew_pairing, cross_product] = &region.refusals[..] else {
         panic!("{:?}", region.refusals);
     };
-    assert!(matches!(skew_pairing.obstacle, Obstacle::Condition(_)));
+    assert!(matches!(skew_pairing.obstacle, Obstacle::Count { .. }));
     let Obstacle::Denominator(factor) = cross_product.obstacle else {
         panic!("{cross_product:?}");
     };

@@ -5,7 +5,8 @@
 use std::time::{Duration, Instant};
 
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::model::{Conservation, DomainCondition, Model};
+use dmm_compiler::model::Model;
+use dmm_compiler::proofs::{Conservation, DomainCondition, Proved};
 use dmm_compiler::{check, proofs, syntax};
 
 /// What is known of one conserved quantity.
@@ -83,31 +84,28 @@ pub(crate) fn judge(source: &str) -> Judgement {
         .filter(|_| diagnostics.is_empty())
         .and_then(|declaration| check::resolve(declaration, &mut diagnostics));
     let start = Instant::now();
-    let model = model.map(|mut model| {
-        proofs::check(&mut model, &mut diagnostics);
-        model
-    });
+    let proved = model.and_then(|model| proofs::prove(model, &mut diagnostics));
     let time = start.elapsed();
-    let statements = match model {
-        Some(model) if diagnostics.is_empty() => known(&model),
-        _ => diagnostics.messages().into_iter().map(refused).collect(),
+    let statements = match proved {
+        Some(proved) => known(&proved),
+        None => diagnostics.messages().into_iter().map(refused).collect(),
     };
     Judgement { statements, time }
 }
 
 /// A line a quantity of a declaration that is accepted.
-fn known(model: &Model) -> Vec<Statement> {
+fn known(proved: &Proved) -> Vec<Statement> {
+    let model = &proved.model;
     let mut statements = Vec::new();
-    for region in &model.regions {
-        for psi in &region.conserved {
-            let (verdict, remark) = match &psi.evidence {
+    for (region, proved) in model.regions.iter().zip(&proved.regions) {
+        for (psi, evidence) in region.conserved.iter().zip(&proved.evidence) {
+            let (verdict, remark) = match evidence {
                 Conservation::Proved(conditions) => (Verdict::Proved, domain(model, conditions)),
                 Conservation::ByConstruction => (Verdict::ByConstruction, String::new()),
                 Conservation::Assumed { points, largest } => (
                     Verdict::Assumed,
                     format!("at {points} points, at most {largest:.0e} of its terms"),
                 ),
-                Conservation::Unknown => (Verdict::Other, "not examined".into()),
             };
             let about = if model.regions.len() == 1 {
                 psi.ident.to_string()

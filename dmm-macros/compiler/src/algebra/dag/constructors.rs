@@ -6,7 +6,7 @@
 use egg::Id;
 use num_traits::{Signed, Zero};
 
-use super::super::language::{Function, Math, PairFunction, Rational};
+use super::super::{Function, Math, PairFunction, Rational};
 use super::Dag;
 
 /// Integer powers of constants are folded up to this exponent; larger ones stay symbolic.
@@ -209,16 +209,13 @@ impl Dag {
 
     /// `function(a)`
     pub fn call(&mut self, function: Function, a: Id) -> Id {
-        use Function::*;
-        let zero = self.is_zero(a);
-        match function {
-            Sqrt | Sin | Tan | Sinh | Tanh | Asin | Atan | Abs | SincPrime | SinhcPrime if zero => {
-                a
-            }
-            Exp | Cos | Cosh | Sinc | Sinhc if zero => self.integer(1),
-            Ln if self.is_one(a) => self.integer(0),
-            Sqrt if self.is_one(a) => a,
-            _ => self.insert(Math::Call(function, a)),
+        let integers = function.properties().integers;
+        let known = self
+            .as_integer(a)
+            .and_then(|a| integers.iter().find(|(u, _)| *u == a));
+        match known {
+            Some(&(_, value)) => self.integer(value),
+            None => self.insert(Math::Call(function, a)),
         }
     }
 

@@ -14,7 +14,7 @@ use super::symbol::{End, Symbol};
 use super::text::{self, Letters};
 use super::unicode;
 use super::writer::{Notation, Precedence, Writer, Written};
-use crate::algebra::{Function, PairFunction, Rational};
+use crate::algebra::{Function, Latex, PairFunction, Rational};
 
 /// How names are written; different names always differently.
 #[derive(Debug, Clone)]
@@ -154,33 +154,23 @@ impl Notation for &Style {
     }
 
     fn call(&self, function: Function, argument: &str) -> Written {
-        let name = match function {
-            Function::Sqrt => return (format!(r"\sqrt{{{argument}}}"), Precedence::Factor),
-            Function::Abs => {
-                return (format!(r"\left|{argument}\right|"), Precedence::Atom);
-            }
-            Function::Exp => r"\exp",
-            Function::Ln => r"\ln",
-            Function::Sin => r"\sin",
-            Function::Cos => r"\cos",
-            Function::Tan => r"\tan",
-            Function::Sinh => r"\sinh",
-            Function::Cosh => r"\cosh",
-            Function::Tanh => r"\tanh",
-            Function::Asin => r"\arcsin",
-            Function::Acos => r"\arccos",
-            Function::Atan => r"\arctan",
-            Function::Sinc => r"\operatorname{sinc}",
-            Function::SincPrime => r"\operatorname{sinc}'",
-            Function::Sinhc => r"\operatorname{sinhc}",
-            Function::SinhcPrime => r"\operatorname{sinhc}'",
-        };
-        let call = format!(r"{name}\left({argument}\right)");
-        (call, Precedence::Factor)
+        match function.latex() {
+            Latex::Name(name) => (
+                format!(r"{name}\left({argument}\right)"),
+                Precedence::Factor,
+            ),
+            Latex::Root => (format!(r"\sqrt{{{argument}}}"), Precedence::Factor),
+            Latex::Bars => (format!(r"\left|{argument}\right|"), Precedence::Atom),
+        }
     }
 
     fn pair(&self, function: PairFunction, [a, b]: [&str; 2]) -> Written {
-        let name = divided_difference(function);
+        let of = match function.of().latex() {
+            Latex::Name(name) => name,
+            Latex::Root | Latex::Bars => function.of().name(),
+        };
+        let prime = if function.prime().is_none() { "'" } else { "" };
+        let name = format!(r"\operatorname{{dd}}{prime}_{{{of}}}");
         (format!(r"{name}\left({a}, {b}\right)"), Precedence::Factor)
     }
 
@@ -250,16 +240,4 @@ fn side(
         };
     }
     text
-}
-
-/// A divided difference, or its derivative in the second argument.
-fn divided_difference(function: PairFunction) -> &'static str {
-    match function {
-        PairFunction::LnDd => r"\operatorname{dd}_{\ln}",
-        PairFunction::LnDdPrime => r"\operatorname{dd}'_{\ln}",
-        PairFunction::AsinDd => r"\operatorname{dd}_{\arcsin}",
-        PairFunction::AsinDdPrime => r"\operatorname{dd}'_{\arcsin}",
-        PairFunction::AtanDd => r"\operatorname{dd}_{\arctan}",
-        PairFunction::AtanDdPrime => r"\operatorname{dd}'_{\arctan}",
-    }
 }

@@ -90,7 +90,8 @@ impl Patterns {
                     product.below.sort_unstable();
                     formulas.insert(Formula::Product(product))
                 }
-                Formula::Pair(function, mut pair) if !is_directed(function) => {
+                Formula::Pair(function, mut pair) if function.prime().is_some() => {
+                    // the arguments of a divided difference may be exchanged
                     pair.sort_unstable();
                     formulas.insert(Formula::Pair(function, pair))
                 }
@@ -162,15 +163,6 @@ impl Patterns {
             }
         }
         formulas.sum(written.into_iter().flatten())
-    }
-}
-
-/// A derivative of a divided difference distinguishes its arguments.
-fn is_directed(function: crate::algebra::PairFunction) -> bool {
-    use crate::algebra::PairFunction::*;
-    match function {
-        LnDd | AsinDd | AtanDd => false,
-        LnDdPrime | AsinDdPrime | AtanDdPrime => true,
     }
 }
 

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use egg::Language;
 
-use super::super::differentiate::arc_derivative;
-use super::super::{Dag, Function, Id, Math, PairFunction};
+use super::super::functions::Difference;
+use super::super::{Dag, Id, Math, PairFunction};
 
 /// `root` with `sinc`, `ln_dd` and their like, which no declaration contains, replaced by the
 /// quotients that define them.
@@ -15,9 +15,9 @@ pub(super) fn expand_divided_differences(dag: &mut Dag, root: Id) -> Id {
         let node = dag[id].clone();
         let node = node.map_children(|child| images.get(&child).copied().unwrap_or(child));
         let image = match node {
-            Math::Call(function, u) => match cardinal_quotient(dag, function, u) {
-                Some(quotient) => quotient,
-                None => dag.rebuild(&node),
+            Math::Call(function, u) => match function.properties().difference {
+                Difference::Definition(definition) => definition(dag, u),
+                Difference::Weight(_) => dag.rebuild(&node),
             },
             Math::Pair(function, [a, b]) => pair_quotient(dag, function, a, b),
             _ => dag.rebuild(&node),
@@ -27,40 +27,16 @@ pub(super) fn expand_divided_differences(dag: &mut Dag, root: Id) -> Id {
     images.get(&root).copied().unwrap_or(root)
 }
 
-/// sinc u = sin(u)/u, sinc′ u = (cos u − sinc u)/u, and the same of sinh.
-fn cardinal_quotient(dag: &mut Dag, function: Function, u: Id) -> Option<Id> {
-    use Function::*;
-    let (outer, derivative) = match function {
-        Sinc | SincPrime => (Sin, Cos),
-        Sinhc | SinhcPrime => (Sinh, Cosh),
-        _ => return None,
-    };
-    let value = dag.call(outer, u);
-    let quotient = dag.div(value, u);
-    if matches!(function, Sinc | Sinhc) {
-        return Some(quotient);
-    }
-    let derivative = dag.call(derivative, u);
-    let difference = dag.sub(derivative, quotient);
-    Some(dag.div(difference, u))
-}
-
 /// h\[a, b\] = (h(b) − h(a))/(b − a), h\[a, b\]′ = (h′(b) − h\[a, b\])/(b − a).
 fn pair_quotient(dag: &mut Dag, function: PairFunction, a: Id, b: Id) -> Id {
-    use PairFunction::*;
-    let outer = match function {
-        LnDd | LnDdPrime => Function::Ln,
-        AsinDd | AsinDdPrime => Function::Asin,
-        AtanDd | AtanDdPrime => Function::Atan,
-    };
-    let [at_a, at_b] = [a, b].map(|u| dag.call(outer, u));
+    let [at_a, at_b] = [a, b].map(|u| dag.call(function.of(), u));
     let difference = dag.sub(at_b, at_a);
     let distance = dag.sub(b, a);
     let quotient = dag.div(difference, distance);
-    if matches!(function, LnDd | AsinDd | AtanDd) {
+    if function.prime().is_some() {
         return quotient;
     }
-    let derivative = arc_derivative(dag, function, b);
+    let derivative = function.of().derivative(dag, b);
     let difference = dag.sub(derivative, quotient);
     dag.div(difference, distance)
 }

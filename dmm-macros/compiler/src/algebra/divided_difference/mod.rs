@@ -14,18 +14,11 @@
 //! | uⁿ | (Σ u₁ʲ u₀ⁿ⁻¹⁻ʲ) Δu |
 //! | u^(p/q) | through w = u^(1/q), Δw = Δu/Σ w₁ʲ w₀^(q−1−j) |
 //! | u^v | as exp(v ln u) |
-//! | √u | Δu/(√u₁ + √u₀) |
-//! | exp u | exp(ū) sinhc(Δu/2) Δu |
-//! | ln u, asin u, atan u | `ln_dd`(u₀, u₁) Δu, … |
-//! | sin u, cos u | cos(ū) sinc(Δu/2) Δu, −sin(ū) sinc(Δu/2) Δu |
-//! | tan u | sinc(Δu)/(cos u₀ cos u₁) Δu |
-//! | sinh u, cosh u | cosh(ū) sinhc(Δu/2) Δu, sinh(ū) sinhc(Δu/2) Δu |
-//! | tanh u | sinhc(Δu)/(cosh u₀ cosh u₁) Δu |
-//! | \|u\| | (u₁ + u₀)/(\|u₁\| + \|u₀\|) Δu |
+//! | h(u) | h\[u₀, u₁\] Δu, as the file of the function writes it |
 //!
 //! Each rule is exact, symmetric under an exchange of the ends, and free of cancellation:
-//! there is no quotient by Δ. The table is written down in `rules`, its sums in `powers`; `chain`
-//! chains the rules backwards from the root.
+//! there is no quotient by Δ. Those of functions stand in the folder `functions`, the others in
+//! `rules` with their sums in `powers`; `chain` chains them backwards from the root.
 
 mod chain;
 mod ends;
@@ -34,7 +27,7 @@ mod powers;
 mod rules;
 
 use super::{Dag, Id, Name};
-use chain::Step;
+pub(super) use chain::{Step, Weight};
 pub use ends::{at_end, at_midpoint, at_start};
 use expand::expand_divided_differences;
 

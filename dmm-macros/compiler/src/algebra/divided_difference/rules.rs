@@ -1,5 +1,6 @@
 //! The table of rules: node → its children with their weights wᵢ in Δu = Σ wᵢ Δuᵢ.
 
+use super::super::functions::Difference;
 use super::super::{Function, Id, Math, PairFunction};
 use super::chain::{Step, Weight};
 use super::powers::{power_weight, rational_power_weight, small_fraction};
@@ -71,7 +72,7 @@ impl Step<'_> {
         let [ln_start, ln_end] = [u_start, u_end].map(|u| self.dag.call(Function::Ln, u));
         let v_mean = self.mean(v);
         let (u_weight, u_part) = if self.ends.vary(u) {
-            let ln_dd = self.dag.pair(PairFunction::LnDd, u_start, u_end);
+            let ln_dd = self.pair(PairFunction::LnDd, u);
             let weight = self.dag.mul(v_mean, ln_dd);
             let difference = self.difference(u);
             (weight, self.dag.mul(weight, difference))
@@ -101,40 +102,26 @@ impl Step<'_> {
     }
 
     fn call(&mut self, function: Function, u: Id) -> Weight {
-        use Function::*;
-        let [start, end] = self.ends.of(u);
-        let one = self.dag.integer(1);
-        match function {
-            Sqrt => {
-                let [start, end] = [start, end].map(|u| self.dag.sqrt(u));
-                let sum = self.dag.add(end, start);
-                Weight::quotient(one, sum)
-            }
-            Exp => self.outer_mean(Exp, Sinhc, u),
-            Sin => self.outer_mean(Cos, Sinc, u),
-            Cos => self.outer_mean(Sin, Sinc, u).negated(self.dag),
-            Sinh => self.outer_mean(Cosh, Sinhc, u),
-            Cosh => self.outer_mean(Sinh, Sinhc, u),
-            Tan => self.outer_ends(Cos, Sinc, u),
-            Tanh => self.outer_ends(Cosh, Sinhc, u),
-            Ln => Weight::factor(self.dag.pair(PairFunction::LnDd, start, end)),
-            Asin => Weight::factor(self.dag.pair(PairFunction::AsinDd, start, end)),
-            Acos => {
-                Weight::factor(self.dag.pair(PairFunction::AsinDd, start, end)).negated(self.dag)
-            }
-            Atan => Weight::factor(self.dag.pair(PairFunction::AtanDd, start, end)),
-            Abs => {
-                let sizes = [end, start].map(|u| self.dag.call(Abs, u));
-                let divisor = self.dag.add(sizes[0], sizes[1]);
-                Weight::quotient(self.dag.add(end, start), divisor)
-            }
-            // expanded into quotients before
-            Sinc | SincPrime | Sinhc | SinhcPrime => Weight::factor(one),
+        match function.properties().difference {
+            Difference::Weight(weight) => weight(self, u),
+            // its definition took its place before
+            Difference::Definition(_) => Weight::factor(self.dag.integer(1)),
         }
     }
 
+    /// h\[u₀, u₁\]
+    pub(in crate::algebra) fn pair(&mut self, function: PairFunction, u: Id) -> Id {
+        let [start, end] = self.ends.of(u);
+        self.dag.pair(function, start, end)
+    }
+
     /// `outer`(ū)·`cardinal`(Δu/2)
-    fn outer_mean(&mut self, outer: Function, cardinal: Function, u: Id) -> Weight {
+    pub(in crate::algebra) fn at_mean(
+        &mut self,
+        outer: Function,
+        cardinal: Function,
+        u: Id,
+    ) -> Weight {
         let mean = self.mean(u);
         let half_difference = self.half_difference(u);
         let outer = self.dag.call(outer, mean);
@@ -144,7 +131,12 @@ impl Step<'_> {
 
     /// (`cardinal`(Δu)/`outer`(u₀))/`outer`(u₁): divided twice, because the product of two
     /// large values of cosh would overflow first.
-    fn outer_ends(&mut self, outer: Function, cardinal: Function, u: Id) -> Weight {
+    pub(in crate::algebra) fn at_ends(
+        &mut self,
+        outer: Function,
+        cardinal: Function,
+        u: Id,
+    ) -> Weight {
         let difference = self.difference(u);
         let cardinal = self.dag.call(cardinal, difference);
         let [start, end] = self.ends.of(u).map(|u| self.dag.call(outer, u));

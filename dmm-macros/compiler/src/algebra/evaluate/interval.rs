@@ -14,7 +14,7 @@ use num_traits::ToPrimitive;
 use super::super::{Dag, Function, Id, Math, Name, Rational};
 
 /// Steps outwards from the value of a library function.
-const LIBRARY_STEPS: u32 = 8;
+pub(in crate::algebra) const LIBRARY_STEPS: u32 = 8;
 
 /// All numbers from `low` to `high`, but for 0 if `nonzero`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +71,17 @@ pub fn enclose_within(dag: &Dag, roots: &[Id], values: &BTreeMap<Name, Interval>
 }
 
 impl Interval {
+    /// All values that a node can have.
+    pub fn of(dag: &Dag, id: Id) -> Self {
+        Self::of_within(dag, id, &BTreeMap::new())
+    }
+
+    /// All values that a node can have where the variables lie in intervals.
+    pub fn of_within(dag: &Dag, id: Id, values: &BTreeMap<Name, Self>) -> Self {
+        let intervals = enclose_within(dag, &[id], values);
+        intervals.first().copied().unwrap_or(Self::WHOLE)
+    }
+
     /// All real numbers.
     pub const WHOLE: Self = Self {
         low: f64::NEG_INFINITY,
@@ -96,7 +107,7 @@ impl Interval {
     }
 
     /// From `low` to `high`; NaN is no bound.
-    fn new(low: f64, high: f64, defined: bool) -> Self {
+    pub(in crate::algebra) fn new(low: f64, high: f64, defined: bool) -> Self {
         let low = if low.is_nan() { f64::NEG_INFINITY } else { low };
         let high = if high.is_nan() { f64::INFINITY } else { high };
         Self {
@@ -135,14 +146,14 @@ impl Interval {
     }
 
     /// With `nonzero` set if 0 is known to be excluded.
-    fn without_zero(self, excluded: bool) -> Self {
+    pub(in crate::algebra) fn without_zero(self, excluded: bool) -> Self {
         Self {
             nonzero: self.nonzero || excluded,
             ..self
         }
     }
 
-    fn undefined(self) -> Self {
+    pub(in crate::algebra) fn undefined(self) -> Self {
         Self {
             defined: false,
             ..self
@@ -150,7 +161,7 @@ impl Interval {
     }
 
     /// Both ends `steps` floating-point numbers further out.
-    fn widened(self, steps: u32) -> Self {
+    pub(in crate::algebra) fn widened(self, steps: u32) -> Self {
         let (mut low, mut high) = (self.low, self.high);
         for _ in 0..steps {
             (low, high) = (low.next_down(), high.next_up());
@@ -181,7 +192,7 @@ impl Interval {
     }
 
     /// |u|
-    fn size(self) -> Self {
+    pub(in crate::algebra) fn size(self) -> Self {
         if self.low >= 0.0 {
             return self;
         }
@@ -216,15 +227,17 @@ impl Interval {
         let inside = self.restricted(0.0, f64::INFINITY);
         if v.is_positive() && inside.low == 0.0 {
             // 0^v = 0
-            let greatest = v.mul(Self::point(inside.high).logarithm()).exponential();
+            let greatest = v
+                .mul(Self::point(inside.high).call(Function::Ln))
+                .call(Function::Exp);
             return Self::new(0.0, greatest.high, inside.defined && v.defined)
                 .without_zero(inside.nonzero);
         }
-        v.mul(self.logarithm()).exponential()
+        v.mul(self.call(Function::Ln)).call(Function::Exp)
     }
 
     /// The part inside of \[low, high\].
-    fn restricted(self, low: f64, high: f64) -> Self {
+    pub(in crate::algebra) fn restricted(self, low: f64, high: f64) -> Self {
         let inside = self.low >= low && self.high <= high;
         Self::new(
             self.low.max(low),
@@ -234,38 +247,23 @@ impl Interval {
         .without_zero(self.nonzero)
     }
 
-    fn logarithm(self) -> Self {
-        let inside = self.restricted(0.0, f64::INFINITY);
-        let defined = inside.defined && inside.is_positive();
-        let interval = Self::new(inside.low.ln(), inside.high.ln(), defined);
-        interval.widened(LIBRARY_STEPS)
-    }
-
-    fn exponential(self) -> Self {
-        let interval = Self::new(self.low.exp(), self.high.exp(), self.defined);
-        interval
-            .widened(LIBRARY_STEPS)
-            .above(0.0)
-            .without_zero(true)
-    }
-
     /// Values are known not to lie below `low`.
-    fn above(self, low: f64) -> Self {
+    pub(in crate::algebra) fn above(self, low: f64) -> Self {
         Self::new(self.low.max(low), self.high, self.defined)
     }
 
     /// Values are known to lie in \[low, high\].
-    fn within(self, low: f64, high: f64) -> Self {
+    pub(in crate::algebra) fn within(self, low: f64, high: f64) -> Self {
         Self::new(self.low.max(low), self.high.min(high), self.defined)
     }
 
     /// A function that rises.
-    fn rising(self, h: impl Fn(f64) -> f64) -> Self {
+    pub(in crate::algebra) fn rising(self, h: impl Fn(f64) -> f64) -> Self {
         Self::new(h(self.low), h(self.high), self.defined).widened(LIBRARY_STEPS)
     }
 
     /// A function with |h′| ≤ 1, from the middle.
-    fn around_middle(self, h: impl Fn(f64) -> f64) -> Self {
+    pub(in crate::algebra) fn around_middle(self, h: impl Fn(f64) -> f64) -> Self {
         let radius = (0.5 * (self.high - self.low)).next_up();
         let middle = self.low + 0.5 * (self.high - self.low);
         if radius.is_nan() || radius >= 1.0 {
@@ -278,39 +276,9 @@ impl Interval {
             .within(-1.0, 1.0)
     }
 
-    fn call(self, function: Function) -> Self {
-        use Function::*;
-        match function {
-            Sqrt => {
-                let inside = self.restricted(0.0, f64::INFINITY);
-                Self::new(inside.low.sqrt(), inside.high.sqrt(), inside.defined)
-                    .widened(1)
-                    .above(0.0)
-                    .without_zero(inside.nonzero)
-            }
-            Exp => self.exponential(),
-            Ln => self.logarithm(),
-            Sin => self.around_middle(f64::sin),
-            Cos => self.around_middle(f64::cos),
-            Tan => self.call(Sin).mul(self.call(Cos).inverse()),
-            Sinh => self.rising(f64::sinh).without_zero(self.nonzero),
-            Cosh => self.size().rising(f64::cosh).above(1.0),
-            Tanh => self
-                .rising(f64::tanh)
-                .within(-1.0, 1.0)
-                .without_zero(self.nonzero),
-            Asin => {
-                let inside = self.restricted(-1.0, 1.0);
-                inside.rising(f64::asin).without_zero(inside.nonzero)
-            }
-            Acos => {
-                let inside = self.restricted(-1.0, 1.0);
-                inside.neg().rising(|u| (-u).acos()).above(0.0)
-            }
-            Atan => self.rising(f64::atan).without_zero(self.nonzero),
-            Abs => self.size(),
-            Sinc | SincPrime | Sinhc | SinhcPrime => Self::WHOLE.undefined(),
-        }
+    /// The values of a function.
+    pub(in crate::algebra) fn call(self, function: Function) -> Self {
+        (function.properties().enclosure)(self)
     }
 }
 

@@ -13,8 +13,9 @@ use std::collections::BTreeMap;
 
 use num_traits::ToPrimitive;
 
-use super::{Dag, Function, Id, Math, Name, PairFunction, Rational};
+use super::{Dag, Id, Math, Name, PairFunction, Rational};
 pub use exact::evaluate_exactly;
+pub(super) use interval::LIBRARY_STEPS;
 pub use interval::{Interval, enclose, enclose_within};
 
 /// The values of `roots`; NaN where a variable has no value or the point is outside a domain.
@@ -116,8 +117,9 @@ fn node(dag: &Dag, id: Id, table: &[Bounded], values: &BTreeMap<Name, f64>) -> B
         Math::Pow([u, v]) => power(of(*u), of(*v), dag.as_integer(*v)),
         Math::Call(function, u) => {
             let u = of(*u);
-            let (value, derivative) = call(*function, u.value);
-            Bounded::rounded(value, scaled(derivative.abs(), u.error))
+            let known = function.properties();
+            let (value, slope) = ((known.value)(u.value), (known.slope)(u.value));
+            Bounded::rounded(value, scaled(slope.abs(), u.error))
         }
         Math::Pair(function, [a, b]) => {
             let (a, b) = (of(*a), of(*b));
@@ -161,158 +163,34 @@ fn power(u: Bounded, v: Bounded, integer: Option<i64>) -> Bounded {
     Bounded::rounded_unless_zero(value, inherited, u.value == 0.0)
 }
 
-/// h(u) and h′(u).
-fn call(function: Function, u: f64) -> (f64, f64) {
-    use Function::*;
-    match function {
-        Sqrt => (u.sqrt(), 0.5 / u.sqrt()),
-        Exp => (u.exp(), u.exp()),
-        Ln => (u.ln(), 1.0 / u),
-        Sin => (u.sin(), u.cos()),
-        Cos => (u.cos(), u.sin()),
-        Tan => (u.tan(), 1.0 + u.tan() * u.tan()),
-        Sinh => (u.sinh(), u.cosh()),
-        Cosh => (u.cosh(), u.sinh()),
-        Tanh => (u.tanh(), 1.0 / (u.cosh() * u.cosh())),
-        Asin => (u.asin(), 1.0 / (1.0 - u * u).sqrt()),
-        Acos => (u.acos(), 1.0 / (1.0 - u * u).sqrt()),
-        Atan => (u.atan(), 1.0 / (1.0 + u * u)),
-        Abs => (u.abs(), 1.0),
-        Sinc => (sinc(u), sinc_prime(u)),
-        SincPrime => (sinc_prime(u), 1.0),
-        Sinhc => (sinhc(u), sinhc_prime(u)),
-        // |sinhc″| ≤ cosh
-        SinhcPrime => (sinhc_prime(u), u.cosh()),
-    }
-}
-
-fn sinc(u: f64) -> f64 {
-    if u == 0.0 { 1.0 } else { u.sin() / u }
-}
-
-fn sinhc(u: f64) -> f64 {
-    if u == 0.0 { 1.0 } else { u.sinh() / u }
-}
-
-/// Below this size the derivatives of `sinc` and `sinhc` are summed as series.
-const SERIES: f64 = 1.0;
-
-fn sinc_prime(u: f64) -> f64 {
-    if u.abs() < SERIES {
-        cardinal_series(u, -1.0)
-    } else {
-        (u.cos() - sinc(u)) / u
-    }
-}
-
-fn sinhc_prime(u: f64) -> f64 {
-    if u.abs() < SERIES {
-        cardinal_series(u, 1.0)
-    } else {
-        (u.cosh() - sinhc(u)) / u
-    }
-}
-
-/// Σ 2k σᵏ u^(2k−1)/(2k+1)! over k ≥ 1, the derivative of Σ σᵏ u^(2k)/(2k+1)!.
-fn cardinal_series(u: f64, sign: f64) -> f64 {
-    let mut power = u;
-    let mut sum = 0.0;
-    for k in 1..=10_u32 {
-        let n = f64::from(2 * k);
-        power *= sign / (n * (n + 1.0));
-        sum += n * power;
-        power *= u * u;
-    }
-    sum
-}
-
 /// A divided difference (or its derivative), and the size of its derivatives.
 fn pair(function: PairFunction, a: f64, b: f64) -> (f64, f64) {
-    use PairFunction::*;
     let derivative = |a, b| prime(function, a, b);
-    match function {
-        LnDd | AsinDd | AtanDd => {
-            let sensitivity = derivative(a, b).abs() + derivative(b, a).abs();
-            (divided_difference(function, a, b), sensitivity)
-        }
-        // |∂h[a, b]′| ≤ sup |h‴|, estimated by steps of the derivative itself
-        LnDdPrime | AsinDdPrime | AtanDdPrime => {
-            let value = derivative(a, b);
-            let step = 1e-4 * a.abs().min(b.abs()).max(1e-4);
-            let in_a = (derivative(a + step, b) - value).abs() / step;
-            let in_b = (derivative(a, b + step) - value).abs() / step;
-            (value, 2.0 * (in_a + in_b) + value.abs())
-        }
+    if function.prime().is_some() {
+        let sensitivity = derivative(a, b).abs() + derivative(b, a).abs();
+        return ((function.properties().value)(a, b), sensitivity);
     }
-}
-
-fn divided_difference(function: PairFunction, a: f64, b: f64) -> f64 {
-    use PairFunction::*;
-    let d = b - a;
-    match function {
-        LnDd | LnDdPrime => {
-            let t = d / a;
-            if t == 0.0 {
-                1.0 / a
-            } else if t.abs() < 0.5 {
-                t.ln_1p() / d
-            } else {
-                (b.ln() - a.ln()) / d
-            }
-        }
-        // tan((β − α)/2) = (sin β − sin α)/(cos β + cos α)
-        AsinDd | AsinDdPrime => {
-            let cosines = (1.0 - a * a).sqrt() + (1.0 - b * b).sqrt();
-            2.0 / cosines * atan_quotient(d / cosines)
-        }
-        // tan(β − α) = (tan β − tan α)/(1 + tan α tan β)
-        AtanDd | AtanDdPrime => {
-            let c = 1.0 + a * b;
-            if c > 0.0 {
-                atan_quotient(d / c) / c
-            } else {
-                (b.atan() - a.atan()) / d
-            }
-        }
-    }
-}
-
-/// atan(u)/u
-fn atan_quotient(u: f64) -> f64 {
-    if u == 0.0 { 1.0 } else { u.atan() / u }
+    // |∂h[a, b]′| ≤ sup |h‴|, estimated by steps of the derivative itself
+    let value = derivative(a, b);
+    let step = 1e-4 * a.abs().min(b.abs()).max(1e-4);
+    let in_a = (derivative(a + step, b) - value).abs() / step;
+    let in_b = (derivative(a, b + step) - value).abs() / step;
+    (value, 2.0 * (in_a + in_b) + value.abs())
 }
 
 /// ∂h\[a, b\]/∂b = (h′(b) − h\[a, b\])/(b − a) = ∫₀¹ s h″(a + s(b − a)) ds; the integral, by
 /// Gauss–Legendre quadrature, where the ends are close.
 fn prime(function: PairFunction, a: f64, b: f64) -> f64 {
-    use PairFunction::*;
+    let (pair, slope) = (function.properties(), function.of().properties().slope);
     let d = b - a;
-    let to_singularity = match function {
-        LnDd | LnDdPrime => a.abs().min(b.abs()),
-        AsinDd | AsinDdPrime => 1.0 - a.abs().max(b.abs()),
-        AtanDd | AtanDdPrime => 1.0,
-    };
-    if d.abs() <= 0.1 * to_singularity {
-        return GAUSS_LEGENDRE
-            .iter()
-            .map(|&(s, weight)| weight * s * second_derivative(function, a + s * d))
+    if d.abs() <= 0.1 * (pair.to_singularity)(a, b) {
+        let second = |u: f64| pair.second_derivative(u, slope(u));
+        let terms = GAUSS_LEGENDRE.iter();
+        return terms
+            .map(|&(s, weight)| weight * s * second(a + s * d))
             .sum();
     }
-    let first = match function {
-        LnDd | LnDdPrime => 1.0 / b,
-        AsinDd | AsinDdPrime => 1.0 / (1.0 - b * b).sqrt(),
-        AtanDd | AtanDdPrime => 1.0 / (1.0 + b * b),
-    };
-    (first - divided_difference(function, a, b)) / d
-}
-
-fn second_derivative(function: PairFunction, u: f64) -> f64 {
-    use PairFunction::*;
-    match function {
-        LnDd | LnDdPrime => -1.0 / (u * u),
-        AsinDd | AsinDdPrime => u / ((1.0 - u * u) * (1.0 - u * u).sqrt()),
-        AtanDd | AtanDdPrime => -2.0 * u / ((1.0 + u * u) * (1.0 + u * u)),
-    }
+    (slope(b) - (pair.value)(a, b)) / d
 }
 
 /// The 5-point nodes on \[0, 1\] and their weights.

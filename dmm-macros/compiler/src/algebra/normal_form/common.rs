@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::evaluate::enclose;
+use super::super::evaluate::Interval;
 use super::super::{Dag, Id};
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
@@ -65,11 +65,7 @@ pub fn common_zeros(dag: &mut Dag, roots: &[Id]) -> Option<CommonZeros> {
         .iter()
         .map(|cofactor| writer.polynomial(cofactor))
         .collect::<Option<_>>()?;
-    let can_vanish = |dag: &Dag, id: Id| {
-        enclose(dag, &[id], &Default::default())
-            .first()
-            .is_none_or(|range| !range.nonzero)
-    };
+    let can_vanish = |dag: &Dag, id: Id| !Interval::of(dag, id).nonzero;
     let never = cofactors.iter().any(|&id| !can_vanish(dag, id));
     let factors = factors
         .into_iter()

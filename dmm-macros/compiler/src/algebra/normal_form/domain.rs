@@ -6,7 +6,7 @@
 //! both are 0), and w > 0 wherever ln(wv) is. Arguments that are variables or polynomials of
 //! variables are used.
 
-use super::super::{Dag, Function, Id, Math};
+use super::super::{Dag, Id, Math};
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
 use super::form::normal_form;
@@ -193,7 +193,7 @@ impl Algebra {
 /// u, where the node is √u, ln u, or u to a power that needs u ≥ 0.
 fn not_negative_argument(dag: &Dag, id: Id) -> Option<Id> {
     match dag[id] {
-        Math::Call(Function::Sqrt | Function::Ln, u) => Some(u),
+        Math::Call(function, u) if function.properties().domain.is_half_line() => Some(u),
         Math::Pow([u, exponent]) if dag.as_integer(exponent).is_none() => Some(u),
         _ => None,
     }

@@ -108,14 +108,7 @@ impl<'a> Forms<'a> {
             // a function of its inverse, wherever that is defined
             Math::Call(outer, inner) if self.algebra.decides => {
                 if let Math::Call(function, u) = &self.dag[*inner]
-                    && matches!(
-                        (outer, function),
-                        (Function::Sin, Function::Asin)
-                            | (Function::Cos, Function::Acos)
-                            | (Function::Tan, Function::Atan)
-                            | (Function::Ln, Function::Exp)
-                            | (Function::Exp, Function::Ln)
-                    )
+                    && outer.properties().right_inverse == Some(*function)
                 {
                     return known(&self.known, *u).cloned();
                 }

@@ -10,7 +10,8 @@
 //! | asin, atan | atoms, odd; acos u = π/2 − asin u |
 //! | \|u\| | (u²)^(1/2) |
 
-use super::super::{Function, PairFunction};
+use super::super::functions::{Form, Pair};
+use super::super::{Function, PairFunction, Rational};
 use super::Obstacle;
 use super::algebra::{Algebra, Kind};
 use super::fraction::Fraction;
@@ -28,33 +29,33 @@ type Linear = Vec<(Number, Fraction)>;
 
 impl Algebra {
     pub(super) fn call(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
-        use Function::*;
-        match function {
-            Sqrt => self.rational_power(u, &Number::Small(1, 2)),
-            Exp => self.exp(u),
-            Ln => self.ln(u),
-            Sin => self.trigonometric(u, Coefficient::I.neg(), Coefficient::I),
-            Cos => self.trigonometric(u, Coefficient::ONE, Coefficient::ONE),
-            Tan => self.ratio(Sin, Cos, u),
-            Sinh => self.hyperbolic(u, Coefficient::ONE.neg()),
-            Cosh => self.hyperbolic(u, Coefficient::ONE),
-            Tanh => self.ratio(Sinh, Cosh, u),
-            Asin | Atan => self.arc(function, u),
-            Acos => {
-                let right_angle = self.pi_times(1, 2)?;
-                let asin = self.arc(Asin, u)?;
-                self.sub(&right_angle, &asin)
-            }
-            Abs => {
+        match function.properties().form {
+            Form::Root => self.rational_power(u, &Number::Small(1, 2)),
+            Form::Size => {
                 let square = self.mul(u, u)?;
                 self.rational_power(&square, &Number::Small(1, 2))
             }
-            Sinc | Sinhc if u.is_zero() => Ok(Fraction::one()),
-            SincPrime | SinhcPrime if u.is_zero() => Ok(Fraction::zero()),
-            Sinc => self.cardinal(Sin, u),
-            Sinhc => self.cardinal(Sinh, u),
-            SincPrime => self.cardinal_prime(Sin, Cos, u),
-            SinhcPrime => self.cardinal_prime(Sinh, Cosh, u),
+            Form::Exponential => self.exp(u),
+            Form::Logarithm => self.ln(u),
+            Form::Circular { is_odd: true } => {
+                self.trigonometric(u, Coefficient::I.neg(), Coefficient::I)
+            }
+            Form::Circular { is_odd: false } => {
+                self.trigonometric(u, Coefficient::ONE, Coefficient::ONE)
+            }
+            Form::Hyperbolic { is_odd: true } => self.hyperbolic(u, Coefficient::ONE.neg()),
+            Form::Hyperbolic { is_odd: false } => self.hyperbolic(u, Coefficient::ONE),
+            Form::Ratio([above, below]) => self.ratio(above, below, u),
+            Form::Arc => self.arc(function, u),
+            Form::Complement(of) => {
+                let right_angle = self.pi_times(1, 2)?;
+                let angle = self.arc(of, u)?;
+                self.sub(&right_angle, &angle)
+            }
+            Form::Cardinal(_) if u.is_zero() => Ok(Fraction::one()),
+            Form::CardinalPrime(_) if u.is_zero() => Ok(Fraction::zero()),
+            Form::Cardinal(h) => self.cardinal(h, u),
+            Form::CardinalPrime([h, first]) => self.cardinal_prime(h, first, u),
         }
     }
 
@@ -323,19 +324,15 @@ impl Algebra {
         a: &Fraction,
         b: &Fraction,
     ) -> Result<Fraction> {
-        use PairFunction::*;
-        let outer = match function {
-            LnDd | LnDdPrime => Function::Ln,
-            AsinDd | AsinDdPrime => Function::Asin,
-            AtanDd | AtanDdPrime => Function::Atan,
-        };
+        let (outer, pair) = (function.of(), function.properties());
         let distance = self.sub(b, a)?;
-        let is_prime = matches!(function, LnDdPrime | AsinDdPrime | AtanDdPrime);
+        let is_prime = function.prime().is_none();
         if distance.is_zero() {
+            let derivative = self.derivative(pair, b)?;
             return if is_prime {
-                self.half_second_derivative(outer, b)
+                self.half_second_derivative(pair, b, &derivative)
             } else {
-                self.arc_derivative(outer, b)
+                Ok(derivative)
             };
         }
         let [at_a, at_b] = [self.call(outer, a)?, self.call(outer, b)?];
@@ -344,41 +341,39 @@ impl Algebra {
         if !is_prime {
             return Ok(quotient);
         }
-        let derivative = self.arc_derivative(outer, b)?;
+        let derivative = self.derivative(pair, b)?;
         let difference = self.sub(&derivative, &quotient)?;
         self.div(&difference, &distance)
     }
 
-    /// h′(u) of ln, asin or atan.
-    fn arc_derivative(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
-        let square = self.mul(u, u)?;
-        match function {
-            Function::Asin => {
-                let cosine_squared = self.sub(&Fraction::one(), &square)?;
-                self.rational_power(&cosine_squared, &Number::Small(-1, 2))
+    /// h′(u) = v^r
+    fn derivative(&mut self, pair: &Pair, u: &Fraction) -> Result<Fraction> {
+        let base = match pair.square {
+            Some(c) => {
+                let square = self.mul(u, u)?;
+                let square = square.scaled(&Coefficient::real(Number::integer(c)));
+                self.add(&Fraction::one(), &square)?
             }
-            Function::Atan => {
-                let sum = self.add(&Fraction::one(), &square)?;
-                self.inverse(&sum)
-            }
-            _ => self.inverse(u),
+            None => u.clone(),
+        };
+        if pair.is_root {
+            self.rational_power(&base, &Number::Small(-1, 2))
+        } else {
+            self.inverse(&base)
         }
     }
 
-    /// h″(u)/2: −h′²/2 for ln, u·h′³/2 for asin, −u·h′² for atan.
-    fn half_second_derivative(&mut self, function: Function, u: &Fraction) -> Result<Fraction> {
-        let first = self.arc_derivative(function, u)?;
-        let half = Coefficient::real(Number::Small(1, 2));
-        match function {
-            Function::Asin => {
-                let cube = self.integer_power(&first, 3)?;
-                Ok(self.mul(u, &cube)?.scaled(&half))
-            }
-            Function::Atan => {
-                let square = self.mul(&first, &first)?;
-                Ok(self.mul(u, &square)?.neg())
-            }
-            _ => Ok(self.mul(&first, &first)?.scaled(&half.neg())),
-        }
+    /// h″(u)/2 = c·uᵏ·h′ᵖ/2
+    fn half_second_derivative(
+        &mut self,
+        pair: &Pair,
+        u: &Fraction,
+        first: &Fraction,
+    ) -> Result<Fraction> {
+        let (c, k, p) = pair.second;
+        let power = self.integer_power(u, k.into())?;
+        let slopes = self.integer_power(first, p.into())?;
+        let half = Coefficient::real(Number::from_rational(&Rational::new(c.into(), 2.into())));
+        Ok(self.mul(&power, &slopes)?.scaled(&half))
     }
 }

@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 
 use egg::Language;
 
-use super::super::{Dag, Function, Id, Math};
+use super::super::functions::Form;
+use super::super::{Dag, Id, Math};
 use super::Obstacle;
 use super::algebra::Algebra;
 use super::denominator::Factors;
@@ -120,8 +121,8 @@ fn dividing(dag: &Dag, nodes: &[Id]) -> Vec<bool> {
             Math::Div(_) | Math::Pair(..) => true,
             Math::Pow([_, exponent]) => dag.as_integer(*exponent).is_none_or(|n| n < 0),
             Math::Call(function, _) => !matches!(
-                function,
-                Function::Sin | Function::Cos | Function::Exp | Function::Sinh | Function::Cosh
+                function.properties().form,
+                Form::Exponential | Form::Circular { .. } | Form::Hyperbolic { .. }
             ),
             _ => false,
         };

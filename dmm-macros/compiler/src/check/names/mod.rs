@@ -103,6 +103,15 @@ impl Names {
         })
     }
 
+    /// Whether a loop around has a variable without a value: it is read for its mistakes, and what
+    /// it gives does not count.
+    pub(super) fn is_rehearsal(&self) -> bool {
+        self.local.iter().any(|(_, symbol)| match &symbol.meaning {
+            Meaning::Value(value) => symbol.kind == Kind::Counter && value.number.is_none(),
+            _ => false,
+        })
+    }
+
     /// Whether a declaration of `name` was refused, which explains what follows.
     pub(super) fn is_refused(&self, name: &str) -> bool {
         self.refused.contains(name)

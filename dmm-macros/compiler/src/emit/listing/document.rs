@@ -1,8 +1,8 @@
 //! A listing: sections of equations, before it is written in one notation or another.
 
+use super::findings::Finding;
 use crate::algebra::display::text::Letters;
 use crate::algebra::display::{FormulaId, Formulas, Symbol};
-use crate::scheme::Finding;
 
 /// The listing of a system.
 #[derive(Debug)]

@@ -14,6 +14,7 @@
 
 mod compose;
 mod document;
+mod findings;
 mod jacobian;
 #[cfg(feature = "explore")]
 mod latex;

@@ -2,6 +2,7 @@
 
 use super::compose::{Composer, Entry, words};
 use super::document::{Document, Level, Part, Section};
+use super::findings::findings;
 use super::jacobian;
 use super::lister::{Lister, symbol, titled};
 use super::strategy;
@@ -9,14 +10,14 @@ use crate::algebra::display::Symbol;
 use crate::algebra::{Id, Name};
 use crate::model::Sign;
 use crate::model::plain_text;
-use crate::scheme::{Scheme, Solvability, Strategy, findings};
+use crate::scheme::{Scheme, Solvability, Strategy};
 
 /// The listing of a system for lines of `width` characters.
 pub(super) fn document(scheme: &Scheme, width: usize) -> Document {
     let mut composer = Composer::new(scheme, &scheme.model.source, width);
     interfaces(&mut composer, scheme);
     for region in 0..scheme.regions.len() {
-        Lister::start(&mut composer, scheme, region).list(region);
+        Lister::start(&mut composer, scheme, region).list();
     }
     composer.finish()
 }
@@ -36,11 +37,12 @@ fn interfaces(composer: &mut Composer, scheme: &Scheme) {
             vec![Part::Sign("g")],
             composer.formula(dag, interface.switching_function),
         )];
-        if !dag.is_zero(derived.time_derivative) {
-            let right = composer.formula(dag, derived.time_derivative);
+        let derivatives = &derived.derivatives;
+        if !dag.is_zero(derivatives.time_derivative) {
+            let right = composer.formula(dag, derivatives.time_derivative);
             rows.push((vec![Part::Sign("∂g/∂t")], right));
         }
-        for (state, &entry) in scheme.model.states.iter().zip(&derived.gradient) {
+        for (state, &entry) in scheme.model.states.iter().zip(&derivatives.gradient) {
             if !dag.is_zero(entry) {
                 let left = vec![Part::Sign("∂g/∂"), symbol(&state.name)];
                 rows.push((left, composer.formula(dag, entry)));
@@ -56,7 +58,7 @@ fn interfaces(composer: &mut Composer, scheme: &Scheme) {
 }
 
 impl Lister<'_> {
-    fn list(&mut self, region: usize) {
+    fn list(&mut self) {
         self.heading();
         self.declared();
         self.multipliers();
@@ -65,7 +67,7 @@ impl Lister<'_> {
         jacobian::section(self);
         let section = Section {
             heading: words("what is known"),
-            findings: findings(self.scheme, region),
+            findings: findings(self.scheme, self.region, self.derived),
             ..Section::default()
         };
         self.composer.add(section, Vec::new());
@@ -125,8 +127,8 @@ impl Lister<'_> {
         let derived = self.derived;
         let rows = self.rows(
             ["Λ[", "∂ₜψ["],
-            &derived.multiplier,
-            &derived.time_derivative,
+            &derived.proved.multiplier,
+            &derived.proved.time_derivative,
         );
         self.composer.add(titled("multiplier ", "Λ = ∇ψ"), rows);
         let rows = self.rows(

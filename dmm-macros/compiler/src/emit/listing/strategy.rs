@@ -3,8 +3,9 @@
 use super::compose::{Entry, words};
 use super::document::{Part, Phrase, Piece, Section};
 use super::lister::{Lister, symbol, titled};
+use crate::algebra::to_text;
 use crate::model::plain_text;
-use crate::scheme::{Explicit, Obstacle, Pairing, Strategy};
+use crate::scheme::{Conditional, Explicit, Obstacle, Pairing, Refusal, Strategy};
 
 /// Pairs are listed as rows if there are more than this.
 const FEW_PAIRS: usize = 3;
@@ -129,7 +130,7 @@ fn minimal_norm(lister: &mut Lister<'_>, mean: &Explicit) {
             let refusals = &lister.derived.refusals;
             let denominator = refusals.iter().find_map(|refusal| match refusal.obstacle {
                 Obstacle::Denominator(factor) => Some(factor),
-                Obstacle::Condition(_) => None,
+                _ => None,
             });
             if let Some(factor) = denominator {
                 note.push(", as they are where ".into());
@@ -150,22 +151,48 @@ fn minimal_norm(lister: &mut Lister<'_>, mean: &Explicit) {
     lister.composer.add(section, rows);
 }
 
+/// Why the strategies before the one that is used do not fit.
 fn refusals(lister: &mut Lister<'_>) -> Vec<Phrase> {
-    let derived = lister.derived;
-    derived
-        .refusals
-        .iter()
-        .map(|refusal| {
-            let mut phrase = words(format!("not {}: ", refusal.strategy));
-            match &refusal.obstacle {
-                Obstacle::Condition(reason) => phrase.push(reason.clone().into()),
-                Obstacle::Denominator(factor) => {
-                    phrase.push("α has the denominator ".into());
-                    phrase.push(lister.composer.formula(lister.dag(), *factor).into());
-                    phrase.push(", which vanishes where f and ∇ψ are finite".into());
-                }
+    let refusals = lister.derived.refusals.iter();
+    refusals.map(|refusal| reason(lister, refusal)).collect()
+}
+
+fn reason(lister: &mut Lister<'_>, refusal: &Refusal) -> Phrase {
+    let name = match refusal.strategy {
+        Conditional::SkewPairing => "skew pairing",
+        Conditional::CrossProduct => "cross product",
+    };
+    let reason = match refusal.obstacle {
+        Obstacle::Count { states, conserved } => match refusal.strategy {
+            Conditional::SkewPairing => {
+                format!("it takes one conserved quantity, and there are {conserved}")
             }
-            phrase
-        })
-        .collect()
+            Conditional::CrossProduct => format!(
+                "it takes N ≥ 3 states with N − 1 conserved quantities, and here N = {states}, M = {conserved}"
+            ),
+        },
+        Obstacle::Cost { conserved } => format!(
+            "the minors of {conserved} conserved quantities cost more than the minimal-norm solve"
+        ),
+        Obstacle::Time => "ψ depends on the time".into(),
+        Obstacle::NoPairs => "the states do not fall into pairs with fᵢ ∂ᵢψ + fⱼ ∂ⱼψ = 0".into(),
+        Obstacle::Dependent => "the conserved quantities are dependent everywhere".into(),
+        Obstacle::NotParallel => "f is not proved to be parallel to the cross product of ∇ψ".into(),
+        Obstacle::NoNormalForm {
+            numerator,
+            denominator,
+        } => {
+            let dag = lister.dag();
+            let [numerator, denominator] = [numerator, denominator].map(|id| to_text(dag, id));
+            format!("α = ({numerator})/({denominator}) has no normal form")
+        }
+        Obstacle::Denominator(factor) => {
+            return vec![
+                format!("not {name}: α has the denominator ").into(),
+                lister.composer.formula(lister.dag(), factor).into(),
+                ", which vanishes where f and ∇ψ are finite".into(),
+            ];
+        }
+    };
+    words(format!("not {name}: {reason}"))
 }

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::document::{Document, Level, Part, Phrase, Piece, Row, Section};
+use super::findings::Finding;
 use crate::algebra::display::text::{self, Letters};
-use crate::scheme::Finding;
 
 /// The listing in lines of `width` characters where that can be.
 pub(super) fn write(document: &Document, width: usize) -> String {

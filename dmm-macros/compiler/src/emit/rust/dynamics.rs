@@ -74,7 +74,7 @@ fn implementation(
 ) -> TokenStream {
     let scheme = &emission.program.scheme.regions[region];
     let (name, scalar) = (&emission.dynamics_of[region], &emission.scalar);
-    let conserved = scheme.multiplier.len();
+    let conserved = scheme.proved.multiplier.len();
     let functions = program.functions.all.iter();
     let methods: TokenStream = functions
         .filter_map(|function| method(scope, function, conserved))

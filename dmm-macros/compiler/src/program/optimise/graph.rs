@@ -5,7 +5,6 @@ use egg::{Analysis, DidMerge, EGraph, Id, Language};
 
 use super::constants::Constants;
 use super::operation::{Operation, Symbol};
-use crate::algebra::Function;
 
 /// Equal operations.
 pub(super) type Graph = EGraph<Operation, Facts>;
@@ -89,12 +88,10 @@ impl Facts {
             .constant
             .and_then(|number| self.constants.fold(symbol, number, number));
         let exact = symbol == Symbol::Neg && a.exact;
-        let not_negative = matches!(
-            symbol,
-            Symbol::Call(
-                Function::Sqrt | Function::Exp | Function::Cosh | Function::Abs | Function::Sinhc
-            )
-        );
+        let not_negative = match symbol {
+            Symbol::Call(function) => function.properties().is_not_negative,
+            _ => false,
+        };
         self.of(constant, a.fixed, exact, not_negative)
     }
 

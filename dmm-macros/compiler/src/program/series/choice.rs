@@ -4,7 +4,7 @@ use super::super::lower::Lowered;
 use super::Coefficient;
 use super::recurrence::{Base, Place, Primitive, Recurrence, Shifted};
 use super::slots::{Slot, Slots};
-use crate::algebra::{Function, Id, Math};
+use crate::algebra::{Equation, Function, Id, Math};
 
 /// Chooses the recurrences of nodes.
 pub(super) struct Choice<'a> {
@@ -128,55 +128,51 @@ impl Choice<'_> {
     fn call(&self, id: Id, function: Function, a: Id) -> Recurrence {
         let place = |slot: Slot| self.slots.place(slot);
         let partner = |function: Function| place(Slot::Partner(function, a));
-        match function {
-            Function::Sqrt => Recurrence::SquareRoot {
+        match function.properties().equation {
+            Equation::Root => Recurrence::SquareRoot {
                 argument: a,
                 own: self.node(id),
                 inverse: place(Slot::Inverse(id)),
             },
-            Function::Exp => Recurrence::Exponential {
+            Equation::Exponential => Recurrence::Exponential {
                 argument: a,
                 derivative: place(Slot::Derivative(a)),
                 own: self.node(id),
             },
-            Function::Sin | Function::Cos => self.pair([Function::Sin, Function::Cos], function, a),
-            Function::Sinh | Function::Cosh => {
-                self.pair([Function::Sinh, Function::Cosh], function, a)
-            }
-            Function::Tan | Function::Tanh => Recurrence::Tangent {
+            Equation::Pair {
+                functions,
+                is_negative,
+            } => Recurrence::Pair {
+                functions,
+                is_negative,
+                argument: a,
+                derivative: place(Slot::Derivative(a)),
+                places: functions.map(partner),
+                own: partner(function),
+            },
+            Equation::Tangent { is_negative } => Recurrence::Tangent {
                 function,
+                is_negative,
                 argument: a,
                 derivative: place(Slot::Derivative(a)),
                 own: self.node(id),
                 partner: partner(function),
             },
-            Function::Ln => Recurrence::Logarithm(self.primitive(id, a, self.node(a))),
-            Function::Atan => Recurrence::ArcTangent {
+            Equation::Logarithm => Recurrence::Logarithm(self.primitive(id, a, self.node(a))),
+            Equation::ArcTangent => Recurrence::ArcTangent {
                 argument: self.node(a),
                 primitive: self.primitive(id, a, partner(function)),
             },
-            Function::Asin | Function::Acos => Recurrence::ArcSine {
+            Equation::ArcSine { is_negative } => Recurrence::ArcSine {
                 function,
                 argument: self.node(a),
                 inverse: place(Slot::Inverse(a)),
                 primitive: Primitive {
-                    is_negative: function == Function::Acos,
+                    is_negative,
                     ..self.primitive(id, a, partner(function))
                 },
             },
-            _ => Recurrence::Missing,
-        }
-    }
-
-    /// One of two functions that are computed together.
-    fn pair(&self, functions: [Function; 2], function: Function, a: Id) -> Recurrence {
-        let place = |one: Function| self.slots.place(Slot::Partner(one, a));
-        Recurrence::Pair {
-            functions,
-            argument: a,
-            derivative: self.slots.place(Slot::Derivative(a)),
-            places: functions.map(place),
-            own: place(function),
+            Equation::Missing => Recurrence::Missing,
         }
     }
 }

@@ -79,6 +79,8 @@ pub enum Recurrence {
     Pair {
         /// Sine and cosine.
         functions: [Function; 2],
+        /// Whether the derivative of the cosine is −sine.
+        is_negative: bool,
         /// u
         argument: Id,
         /// h du/dh
@@ -94,6 +96,8 @@ pub enum Recurrence {
     Tangent {
         /// Which of them.
         function: Function,
+        /// Whether v = 1 − w².
+        is_negative: bool,
         /// u
         argument: Id,
         /// h du/dh

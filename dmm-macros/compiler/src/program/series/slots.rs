@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::super::inputs::{Input, Variable};
 use super::super::lower::Lowered;
 use super::recurrence::Place;
-use crate::algebra::{Function, Id, Math};
+use crate::algebra::{Equation, Function, Id, Math};
 
 /// What a slot belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -105,29 +105,22 @@ fn needed(lowered: &Lowered, id: Id) -> Vec<Slot> {
 /// The slots that the recurrence of a function of `a` needs.
 fn needed_by_call(id: Id, function: Function, a: Id) -> Vec<Slot> {
     use Slot::{Derivative, Inverse, Node, Partner, Slope};
-    match function {
-        Function::Sqrt => vec![Node(id), Inverse(id)],
-        Function::Exp => vec![Node(id), Derivative(a)],
-        Function::Ln => vec![Node(a), Slope(id), Inverse(id)],
-        Function::Sin | Function::Cos => vec![
-            Derivative(a),
-            Partner(Function::Sin, a),
-            Partner(Function::Cos, a),
-        ],
-        Function::Sinh | Function::Cosh => vec![
-            Derivative(a),
-            Partner(Function::Sinh, a),
-            Partner(Function::Cosh, a),
-        ],
-        Function::Tan | Function::Tanh => vec![Node(id), Derivative(a), Partner(function, a)],
-        Function::Atan => vec![Node(a), Partner(function, a), Slope(id), Inverse(id)],
-        Function::Asin | Function::Acos => vec![
+    match function.properties().equation {
+        Equation::Root => vec![Node(id), Inverse(id)],
+        Equation::Exponential => vec![Node(id), Derivative(a)],
+        Equation::Logarithm => vec![Node(a), Slope(id), Inverse(id)],
+        Equation::Pair {
+            functions: [p, q], ..
+        } => vec![Derivative(a), Partner(p, a), Partner(q, a)],
+        Equation::Tangent { .. } => vec![Node(id), Derivative(a), Partner(function, a)],
+        Equation::ArcTangent => vec![Node(a), Partner(function, a), Slope(id), Inverse(id)],
+        Equation::ArcSine { .. } => vec![
             Node(a),
             Partner(function, a),
             Inverse(a),
             Slope(id),
             Inverse(id),
         ],
-        _ => Vec::new(),
+        Equation::Missing => Vec::new(),
     }
 }

@@ -8,10 +8,9 @@
 //! |---|---|
 //! | u/v | v ≠ 0 |
 //! | uⁿ, n < 0 | u ≠ 0 |
-//! | √u, u^(p/q) | u ≥ 0; u > 0 for a negative exponent |
-//! | u^v, ln u | u > 0 |
-//! | asin u, acos u | −1 ≤ u ≤ 1 |
-//! | tan u | cos u ≠ 0 |
+//! | u^(p/q) | u ≥ 0; u > 0 for a negative exponent |
+//! | u^v | u > 0 |
+//! | h(u) | the [`Domain`](algebra::Domain) of h: u > 0 for ln, cos u ≠ 0 for tan, … |
 //!
 //! Conditions are taken apart into their factors; those that hold anyway, and those that follow
 //! from others, are left out (see the module `redundant`), as are those that hold in the region
@@ -29,17 +28,18 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::Signed;
 
-use crate::algebra::evaluate::{Interval, enclose};
-use crate::algebra::{Dag, Function, Id, Math, Name};
-use crate::model::{DomainCondition, Sign, positive};
+use crate::algebra::evaluate::Interval;
+use crate::algebra::{self, Dag, Function, Id, Math, Name};
+use crate::model::{Sign, positive};
+use crate::proofs::DomainCondition;
 use redundant::{equal_condition, is_within_by, without_consequences, without_multiples};
 
 /// Where formulas are defined.
 pub(crate) struct Domain {
     /// What has to hold.
     pub(crate) conditions: Vec<DomainCondition>,
-    /// The statements that exclude one another, if there is no open set where they are defined.
-    pub(crate) contradiction: Option<String>,
+    /// The conditions that exclude one another, if there is no open set where they are defined.
+    pub(crate) contradiction: Option<Vec<DomainCondition>>,
 }
 
 /// What has to hold for every node of `roots` to be defined on `sides`; powers of a base in `both` with an exponent that is no number have values on both
@@ -108,6 +108,15 @@ enum Need {
 }
 
 impl Need {
+    /// The condition that it is of `u`.
+    fn of(self, u: Id) -> DomainCondition {
+        match self {
+            Self::NotNegative => DomainCondition::NotNegative(u),
+            Self::NonZero => DomainCondition::NonZero(u),
+            Self::Positive => DomainCondition::Positive(u),
+        }
+    }
+
     /// The numbers that satisfy it.
     fn range(self) -> Interval {
         match self {
@@ -148,26 +157,33 @@ impl Conditions {
                 (None, None) if self.both.contains(&u) => self.need(dag, u, Need::NonZero),
                 _ => self.need(dag, u, Need::Positive),
             },
-            Math::Call(Function::Sqrt, u) => self.need(dag, u, Need::NotNegative),
-            Math::Call(Function::Ln, u) => self.need(dag, u, Need::Positive),
-            Math::Call(Function::Tan, u) => {
-                let cosine = dag.call(Function::Cos, u);
-                self.need(dag, cosine, Need::NonZero);
+            Math::Call(function, u) => self.call(dag, function, u),
+            _ => {}
+        }
+    }
+
+    fn call(&mut self, dag: &mut Dag, function: Function, u: Id) {
+        match function.properties().domain {
+            algebra::Domain::All => {}
+            algebra::Domain::NotNegative => self.need(dag, u, Need::NotNegative),
+            algebra::Domain::Positive => self.need(dag, u, Need::Positive),
+            algebra::Domain::NonZero(of) => {
+                let divisor = dag.call(of, u);
+                self.need(dag, divisor, Need::NonZero);
             }
-            Math::Call(Function::Asin | Function::Acos, u) => {
-                let range = range(dag, u);
+            algebra::Domain::WithinOne => {
+                let range = Interval::of(dag, u);
                 let inside = range.low >= -1.0 && range.high <= 1.0;
                 if !inside && !self.within_one.contains(&u) {
                     self.within_one.push(u);
                 }
             }
-            _ => {}
         }
     }
 
     /// Notes that `id` is needed, in its simplest form.
     fn need(&mut self, dag: &Dag, id: Id, need: Need) {
-        let range = range(dag, id);
+        let range = Interval::of(dag, id);
         if need.holds(range) {
             return;
         }
@@ -188,7 +204,7 @@ impl Conditions {
             (Math::Mul([u, v]) | Math::Div([u, v]), _) => {
                 // a factor of known sign is not asked for
                 for (known, other) in [(*u, *v), (*v, *u)] {
-                    let sign = self::range(dag, known);
+                    let sign = Interval::of(dag, known);
                     if sign.is_positive() {
                         return self.need(dag, other, need);
                     }
@@ -230,7 +246,7 @@ impl Conditions {
         let mut kept: Vec<(Id, Need)> = Vec::new();
         for (id, need) in self.needs {
             // u > 0 with u ≥ 0 known is u ≠ 0
-            let need = if need == Need::Positive && range(dag, id).is_not_negative() {
+            let need = if need == Need::Positive && Interval::of(dag, id).is_not_negative() {
                 Need::NonZero
             } else {
                 need
@@ -250,6 +266,10 @@ impl Conditions {
         let scratch = &mut dag.clone();
         let known = &positive(scratch, sides);
         let contradiction = within::contradiction(scratch, &kept, &self.within_one, known);
+        if contradiction.is_some() {
+            // they may be about the functions of the sides
+            positive(dag, sides);
+        }
         let within = self.within_one.into_iter();
         let within: Vec<Id> = within
             .filter(|&u| {
@@ -261,11 +281,7 @@ impl Conditions {
         let scratch = &mut dag.clone();
         let known = &positive(scratch, sides);
         let kept = within::not_implied(scratch, kept, known);
-        let needs = kept.into_iter().map(|(id, need)| match need {
-            Need::NotNegative => DomainCondition::NotNegative(id),
-            Need::NonZero => DomainCondition::NonZero(id),
-            Need::Positive => DomainCondition::Positive(id),
-        });
+        let needs = kept.into_iter().map(|(id, need)| need.of(id));
         Domain {
             conditions: needs
                 .chain(within.into_iter().map(DomainCondition::WithinOne))
@@ -273,11 +289,4 @@ impl Conditions {
             contradiction,
         }
     }
-}
-
-fn range(dag: &Dag, id: Id) -> Interval {
-    enclose(dag, &[id], &BTreeMap::new())
-        .first()
-        .copied()
-        .unwrap_or(Interval::WHOLE)
 }

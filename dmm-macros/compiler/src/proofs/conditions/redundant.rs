@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Need;
-use crate::algebra::evaluate::{Interval, enclose_within};
+use crate::algebra::evaluate::Interval;
 use crate::algebra::normal_form::divide_exactly;
 use crate::algebra::{Dag, Id, Math, Name, is_proved_zero};
 
@@ -47,8 +47,8 @@ pub(super) fn is_within_by(dag: &mut Dag, kept: &[(Id, Need)], u: Id) -> bool {
 pub(super) fn without_consequences(dag: &Dag, kept: Vec<(Id, Need)>) -> Vec<(Id, Need)> {
     let variables = ranges_of_variables(dag, &kept);
     let follows = |&(id, need): &(Id, Need)| {
-        let range = enclose_within(dag, &[id], &variables);
-        !matches!(dag[id], Math::Variable(_)) && range.iter().all(|&range| need.holds(range))
+        let range = Interval::of_within(dag, id, &variables);
+        !matches!(dag[id], Math::Variable(_)) && need.holds(range)
     };
     let kept: Vec<(Id, Need)> = kept.into_iter().filter(|one| !follows(one)).collect();
     // no factor of what is positive is zero
@@ -146,8 +146,8 @@ fn is_unit(dag: &Dag, u: Id, need: Need, conditions: &[(Id, Need)]) -> bool {
     };
     let mut open = vec![(u, needed)];
     while let Some((id, needed)) = open.pop() {
-        let range = enclose_within(dag, &[id], &variables);
-        let holds = (range.iter()).all(|&range| range.defined && needed.holds(range));
+        let range = Interval::of_within(dag, id, &variables);
+        let holds = range.defined && needed.holds(range);
         let is_asked = conditions
             .iter()
             .any(|&(other, known)| other == id && (known == needed || known == Need::Positive));

@@ -11,9 +11,10 @@ use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::Need;
 use super::redundant::{MOST_COMPARED, is_multiple};
-use crate::algebra::evaluate::{Interval, enclose_within};
+use crate::algebra::evaluate::Interval;
 use crate::algebra::normal_form::divide_exactly;
-use crate::algebra::{Dag, Id, Name, differentiate, is_proved_zero, normalise, to_text};
+use crate::algebra::{Dag, Id, Name, differentiate, is_proved_zero, normalise};
+use crate::proofs::DomainCondition;
 
 /// Intervals of variables.
 type Ranges = BTreeMap<Name, Interval>;
@@ -47,7 +48,7 @@ fn is_implied(
     known: &[(Id, Need)],
     ranges: &Ranges,
 ) -> bool {
-    if need.holds(enclosure(dag, id, ranges)) {
+    if need.holds(Interval::of_within(dag, id, ranges)) {
         return true;
     }
     for &(other, _) in known {
@@ -67,11 +68,11 @@ fn is_implied(
 pub(super) fn holds_within_one(dag: &mut Dag, u: Id, sides: &[Id]) -> bool {
     let known: Vec<(Id, Need)> = sides.iter().map(|&side| (side, Need::Positive)).collect();
     let ranges = ranges(dag, &known);
-    let range = enclosure(dag, u, &ranges);
+    let range = Interval::of_within(dag, u, &ranges);
     range.low >= -1.0 && range.high <= 1.0
 }
 
-/// The statements among the conditions and `sides` that exclude one another, if there are such:
+/// The conditions, those of `sides` among them, that exclude one another, if there are such:
 /// together they hold nowhere, or on a set without interior only. Sides that exclude one another
 /// without them say nothing of the conditions.
 pub(super) fn contradiction(
@@ -79,7 +80,7 @@ pub(super) fn contradiction(
     kept: &[(Id, Need)],
     within_one: &[Id],
     sides: &[Id],
-) -> Option<String> {
+) -> Option<Vec<DomainCondition>> {
     let sides: Vec<(Id, Need)> = sides.iter().map(|&side| (side, Need::Positive)).collect();
     let is_nowhere = (sides.iter()).any(|&(id, need)| {
         let none = Ranges::new();
@@ -92,16 +93,15 @@ pub(super) fn contradiction(
     let all = ranges(dag, &known);
     for &(id, need) in kept {
         if let Some(other) = excluded(dag, (id, need), &known, &all) {
-            let mut statements = vec![statement(dag, id, need)];
-            statements.extend(other.map(|(other, need)| statement(dag, other, need)));
-            return Some(statements.join(" and "));
+            let other = other.map(|(other, need)| need.of(other));
+            return Some([need.of(id)].into_iter().chain(other).collect());
         }
     }
     let outside = within_one.iter().find(|&&u| {
-        let range = enclosure(dag, u, &all);
+        let range = Interval::of_within(dag, u, &all);
         range.low >= 1.0 || range.high <= -1.0
     });
-    outside.map(|&u| format!("|{}| ≤ 1", to_text(dag, u)))
+    outside.map(|&u| vec![DomainCondition::WithinOne(u)])
 }
 
 /// Whether a condition is satisfied nowhere, alone or (then with which) beside another one.
@@ -150,17 +150,8 @@ fn is_opposite(dag: &mut Dag, u: Id, v: Id) -> bool {
     let shares = (dag.variables([v]).iter()).all(|name| depends_on.contains(name));
     shares
         && divide_exactly(dag, u, v).is_some_and(|quotient| {
-            enclosure(dag, quotient.value, &Ranges::new()).is_not_positive()
+            Interval::of_within(dag, quotient.value, &Ranges::new()).is_not_positive()
         })
-}
-
-fn statement(dag: &Dag, id: Id, need: Need) -> String {
-    let sign = match need {
-        Need::NotNegative => "≥",
-        Need::NonZero => "≠",
-        Need::Positive => ">",
-    };
-    format!("{} {sign} 0", to_text(dag, id))
 }
 
 /// The intervals in which single variables lie because of conditions a·x + b > 0 or ≥ 0.
@@ -215,21 +206,14 @@ fn half_line(dag: &mut Dag, id: Id, name: &Name) -> Option<(bool, f64)> {
     Some((rises, outwards))
 }
 
-fn enclosure(dag: &Dag, id: Id, ranges: &Ranges) -> Interval {
-    enclose_within(dag, &[id], ranges)
-        .first()
-        .copied()
-        .unwrap_or(Interval::WHOLE)
-}
-
 /// The enclosure of `id`, or of its normal form where that says more about its sign.
 fn simplest_range(dag: &mut Dag, id: Id, ranges: &Ranges) -> Interval {
-    let range = enclosure(dag, id, ranges);
+    let range = Interval::of_within(dag, id, ranges);
     if range.is_not_negative() || range.is_not_positive() {
         return range;
     }
     match normalise(dag, id) {
-        Some(normal) => enclosure(dag, normal, ranges),
+        Some(normal) => Interval::of_within(dag, normal, ranges),
         None => range,
     }
 }

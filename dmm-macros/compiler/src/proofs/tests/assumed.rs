@@ -1,7 +1,6 @@
 //! What is accepted on the user's word, and what is not.
 
-use super::{evidence, messages, one, sound};
-use crate::model::Conservation;
+use super::{Conservation, evidence, messages, one, sound};
 
 /// True, and beyond the normal form: roots of numbers nested in each other, and the odd
 /// function arsinh written as a logarithm in two ways.
@@ -19,9 +18,9 @@ fn what_is_undecided_can_be_assumed() {
             &items.replace("CLAIM", "conserved"),
             &["could not be proved", "assume conserved e = …;", "PWS301"],
         );
-        let model = sound(&items.replace("CLAIM", "assume conserved"));
-        let &Conservation::Assumed { points, largest } = evidence(&model) else {
-            panic!("{items}: {:?}", evidence(&model));
+        let proved = sound(&items.replace("CLAIM", "assume conserved"));
+        let &Conservation::Assumed { points, largest } = evidence(&proved) else {
+            panic!("{items}: {:?}", evidence(&proved));
         };
         assert!(
             points >= 64 && largest < 1e-12,
@@ -33,8 +32,8 @@ fn what_is_undecided_can_be_assumed() {
 #[test]
 fn an_assumption_does_not_hide_what_is_known() {
     let harmonic = "state x, y; der(x) = y; der(y) = -x;";
-    let model = sound(&format!("{harmonic} assume conserved e = x^2 + y^2;"));
-    assert_eq!(*evidence(&model), Conservation::Proved(Vec::new()));
+    let proved = sound(&format!("{harmonic} assume conserved e = x^2 + y^2;"));
+    assert_eq!(*evidence(&proved), Conservation::Proved(Vec::new()));
     one(
         &format!("{harmonic} assume conserved e = x^2 + 2*y^2;"),
         &["`e` is not conserved", "PWS300"],

@@ -1,23 +1,22 @@
 //! Where a proof holds.
 
-use super::{evidence, one, sound};
-use crate::model::{Conservation, Model};
+use super::{Conservation, Proved, evidence, one, sound};
 
 /// Where the first quantity is proved to be conserved.
 #[track_caller]
 pub(super) fn domain(items: &str) -> String {
-    let model = sound(items);
-    conditions(&model, evidence(&model))
+    let proved = sound(items);
+    conditions(&proved, evidence(&proved))
 }
 
 #[track_caller]
-fn conditions(model: &Model, evidence: &Conservation) -> String {
+fn conditions(proved: &Proved, evidence: &Conservation) -> String {
     let Conservation::Proved(conditions) = evidence else {
         panic!("{evidence:?}");
     };
     let conditions = conditions.iter();
     let conditions: Vec<String> = conditions
-        .map(|condition| condition.statement(&model.dag))
+        .map(|condition| condition.statement(&proved.model.dag))
         .collect();
     conditions.join(", ")
 }
@@ -25,11 +24,11 @@ fn conditions(model: &Model, evidence: &Conservation) -> String {
 /// Where the first quantity of each region is proved to be conserved.
 #[track_caller]
 fn domains(items: &str) -> Vec<String> {
-    let model = sound(items);
-    let regions = model.regions.iter();
+    let proved = sound(items);
+    let regions = proved.regions.iter();
     regions
-        .filter_map(|region| region.conserved.first())
-        .map(|psi| conditions(&model, &psi.evidence))
+        .filter_map(|region| region.evidence.first())
+        .map(|evidence| conditions(&proved, evidence))
         .collect()
 }
 

@@ -7,47 +7,49 @@ use proc_macro2::TokenStream;
 
 use super::*;
 use crate::algebra::to_text;
-use crate::model::Model;
 use crate::{check as names, syntax};
 use domains::domain;
 
-/// The model of a declaration after the proofs, and their messages.
-fn proved(items: &str) -> (Model, Vec<String>) {
+/// The proved model of a declaration, and the messages of the proofs.
+fn proved(items: &str) -> (Option<Proved>, Vec<String>) {
     let text = format!("system S {{ {items} }}");
     let tokens: TokenStream = text.parse().expect("the test's text is made of tokens");
     let mut diagnostics = Diagnostics::new();
     let declaration = syntax::parse(tokens, &mut diagnostics).expect("a head");
     let model = names::resolve(declaration, &mut diagnostics);
     assert_eq!(diagnostics.messages(), Vec::<String>::new(), "{items}");
-    let mut model = model.expect("a model");
-    check(&mut model, &mut diagnostics);
-    (model, diagnostics.messages())
+    let proved = prove(model.expect("a model"), &mut diagnostics);
+    (proved, diagnostics.messages())
 }
 
 fn messages(items: &str) -> Vec<String> {
     proved(items).1
 }
 
-/// The model of a declaration without errors.
+/// The proved model of a declaration without errors.
 #[track_caller]
-fn sound(items: &str) -> Model {
-    let (model, messages) = proved(items);
+fn sound(items: &str) -> Proved {
+    let (proved, messages) = proved(items);
     assert_eq!(messages, Vec::<String>::new(), "{items}");
-    model
+    proved.expect("a proved model")
 }
 
-fn evidence(model: &Model) -> &Conservation {
-    &model.regions[0].conserved[0].evidence
+fn evidence(proved: &Proved) -> &Conservation {
+    &proved.regions[0].evidence[0]
 }
 
 /// Where the gradients become dependent: factors; cofactors.
 #[track_caller]
 fn dependence(items: &str) -> [Vec<String>; 2] {
-    let model = sound(items);
-    let Independence::Proved { factors, minors } = &model.regions[0].independence else {
-        panic!("{items}: {:?}", model.regions[0].independence);
+    let proved = sound(items);
+    let Independence::Proved { factors, minors } = &proved.regions[0].independence else {
+        panic!("{items}: {:?}", proved.regions[0].independence);
     };
-    [factors, minors].map(|ids| ids.iter().map(|&id| to_text(&model.dag, id)).collect())
+    [factors, minors].map(|ids| {
+        ids.iter()
+            .map(|&id| to_text(&proved.model.dag, id))
+            .collect()
+    })
 }
 
 #[track_caller]
@@ -179,8 +181,8 @@ fn numbers_are_short() {
 
 #[test]
 fn a_hamiltonian_is_conserved_by_construction() {
-    let model = sound("state q, p; hamiltonian H = p^2/2 - cos(q) in (q, p);");
-    assert_eq!(*evidence(&model), Conservation::ByConstruction);
+    let proved = sound("state q, p; hamiltonian H = p^2/2 - cos(q) in (q, p);");
+    assert_eq!(*evidence(&proved), Conservation::ByConstruction);
     // another state in H has to be proved not to move it
     let pendulum = "state q, p, w; hamiltonian H = p^2/2 - w*cos(q) in (q, p);";
     assert_eq!(domain(&format!("{pendulum} der(w) = 0;")), "");
@@ -251,19 +253,19 @@ fn the_set_of_dependence_is_found() {
 #[test]
 fn a_dependence_is_an_error_only_if_it_is_proved() {
     // x(1 + √2) and x√(3 + 2√2) are the same, which the normal form does not see
-    let model = sound(
+    let proved = sound(
         "state x, y; der(x) = 0; der(y) = 1;
          conserved a = (1 - 2^(1/3) + 4^(1/3))*x; conserved b = (9*2^(1/3) - 9)^(1/3)*x + y - t;",
     );
     assert!(matches!(
-        model.regions[0].independence,
+        proved.regions[0].independence,
         Independence::Proved { .. }
     ));
-    let model = sound(
+    let proved = sound(
         "state x, y, z; der(x) = 0; der(y) = 0; der(z) = 1;
          conserved a = (1 - 2^(1/3) + 4^(1/3))*x + y; conserved b = (9*2^(1/3) - 9)^(1/3)*x + y;",
     );
-    assert_eq!(model.regions[0].independence, Independence::Nothing);
+    assert_eq!(proved.regions[0].independence, Independence::Undecided);
 }
 
 #[test]

@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, HashMap};
 
 use egg::Language;
 
-use crate::algebra::evaluate::enclose;
-use crate::algebra::{Dag, Function, Id, Math, Name, evaluate};
+use crate::algebra::evaluate::Interval;
+use crate::algebra::{Dag, Domain, Function, Id, Math, Name, evaluate};
 use crate::model::{Model, Parameter};
 
 /// Points of the set.
@@ -35,8 +35,8 @@ pub(super) fn jumps(
     psi: Id,
     zero: Id,
 ) -> bool {
-    let range = enclose(dag, &[zero], &BTreeMap::new());
-    let keeps_sign = (range.iter()).all(|range| range.is_not_negative() || range.is_not_positive());
+    let range = Interval::of(dag, zero);
+    let keeps_sign = range.is_not_negative() || range.is_not_positive();
     if keeps_sign || !may_jump(dag, psi) {
         return false;
     }
@@ -85,7 +85,10 @@ fn may_jump(dag: &Dag, psi: Id) -> bool {
             return true;
         }
         let divides_here = match *node {
-            Math::Div(_) | Math::Call(Function::Tan, _) => true,
+            Math::Div(_) => true,
+            Math::Call(function, _) => {
+                matches!(function.properties().domain, Domain::NonZero(_))
+            }
             Math::Pow([_, v]) => dag.as_integer(v).is_none_or(|n| n < 0),
             _ => false,
         };

@@ -10,6 +10,7 @@
 
 use super::regularity::{poles, regular_quotient};
 use super::{Context, Explicit, Obstacle, Strategy, midpoint};
+use crate::algebra::linear::determinant;
 use crate::algebra::{Dag, Id, is_proved_zero};
 
 /// Minors are expanded symbolically up to this many states: N = 5 would take 5·24 products
@@ -20,23 +21,13 @@ const MOST_STATES: usize = 4;
 pub(super) fn derive(dag: &mut Dag, context: &Context<'_>) -> Result<Strategy, Obstacle> {
     let (states, count) = (context.states.len(), context.multiplier.len());
     if states < 3 || count + 1 != states {
-        return Err(format!(
-            "it takes N ≥ 3 states with N − 1 conserved quantities, and here N = {states}, M = {count}"
-        )
-        .into());
+        return Err(context.wrong_count());
     }
     if states > MOST_STATES {
-        return Err(format!(
-            "the minors of {count} conserved quantities cost more than the minimal-norm solve"
-        )
-        .into());
+        return Err(Obstacle::Cost { conserved: count });
     }
-    if context
-        .time_derivative
-        .iter()
-        .any(|&by_time| !is_proved_zero(dag, by_time))
-    {
-        return Err("ψ depends on the time".into());
+    if context.depends_on_time(dag) {
+        return Err(Obstacle::Time);
     }
     let product = cross_product(dag, context.multiplier);
     let alpha = alpha(dag, context, &product)?;
@@ -69,14 +60,14 @@ fn alpha(dag: &mut Dag, context: &Context<'_>, product: &[Id]) -> Result<Id, Obs
             .chain(context.multiplier.iter().flatten())
             .copied(),
     );
-    let mut refusal = Obstacle::from("the conserved quantities are dependent everywhere");
+    let mut refusal = Obstacle::Dependent;
     for (&component, &minor) in context.field.iter().zip(product) {
         if is_proved_zero(dag, minor) {
             continue;
         }
         match regular_quotient(dag, component, minor, context.states, &poles) {
             Ok(alpha) if is_factor(dag, context.field, alpha, product) => return Ok(alpha),
-            Ok(_) => refusal = "f is not proved to be parallel to the cross product of ∇ψ".into(),
+            Ok(_) => refusal = Obstacle::NotParallel,
             Err(obstacle) => refusal = obstacle,
         }
     }
@@ -105,24 +96,4 @@ fn cross_product(dag: &mut Dag, rows: &[Vec<Id>]) -> Vec<Id> {
             }
         })
         .collect()
-}
-
-/// The determinant of the square matrix of `columns` of `rows`, by the first row.
-fn determinant(dag: &mut Dag, rows: &[Vec<Id>], columns: &[usize]) -> Id {
-    let Some((first, rest)) = rows.split_first() else {
-        return dag.integer(1);
-    };
-    let mut sum = dag.integer(0);
-    for (position, &column) in columns.iter().enumerate() {
-        let mut others = columns.to_vec();
-        others.remove(position);
-        let minor = determinant(dag, rest, &others);
-        let term = dag.mul(first[column], minor);
-        sum = if position % 2 == 0 {
-            dag.add(sum, term)
-        } else {
-            dag.sub(sum, term)
-        };
-    }
-    sum
 }

@@ -6,7 +6,7 @@ pub(super) mod minimal_norm;
 mod regularity;
 pub(super) mod skew_pairing;
 
-use crate::algebra::{Dag, Id, Name, at_midpoint, differentiate, jacobian};
+use crate::algebra::{Dag, Id, Name, at_midpoint, differentiate, is_proved_zero, jacobian};
 use crate::model::Model;
 
 /// How the discrete vector field f^τ is made from Λ^τ (Wan, Bihlo & Nave 2017).
@@ -91,34 +91,56 @@ impl Explicit {
 }
 
 /// A strategy that was tried and does not fit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
-    /// What it is called.
-    pub strategy: &'static str,
+    /// Which.
+    pub strategy: Conditional,
     /// Why it does not fit.
     pub obstacle: Obstacle,
 }
 
+/// The strategies that do not always fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Conditional {
+    /// [`Strategy::SkewPairing`]
+    SkewPairing,
+    /// [`Strategy::CrossProduct`]
+    CrossProduct,
+}
+
 /// Why a strategy does not fit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Obstacle {
-    /// A condition that does not hold.
-    Condition(String),
+    /// The number M of conserved quantities in N states is not the one that it takes.
+    Count {
+        /// N
+        states: usize,
+        /// M
+        conserved: usize,
+    },
+    /// The minors of so many conserved quantities cost more than the minimal-norm solve.
+    Cost {
+        /// M
+        conserved: usize,
+    },
+    /// ψ depends on the time.
+    Time,
+    /// The states do not fall into pairs with fᵢ ∂ᵢψ + fⱼ ∂ⱼψ = 0.
+    NoPairs,
+    /// The conserved quantities are dependent everywhere.
+    Dependent,
+    /// f is not proved to be parallel to the cross product of ∇ψ.
+    NotParallel,
+    /// α as this quotient has no normal form.
+    NoNormalForm {
+        /// The numerator.
+        numerator: Id,
+        /// The denominator.
+        denominator: Id,
+    },
     /// α has this denominator over `t` and the states, which can vanish where f and ∇ψ are
     /// finite. Where it does and f does not, the gradients ∇ψ vanish or are dependent.
     Denominator(Id),
-}
-
-impl From<String> for Obstacle {
-    fn from(condition: String) -> Self {
-        Self::Condition(condition)
-    }
-}
-
-impl From<&str> for Obstacle {
-    fn from(condition: &str) -> Self {
-        Self::Condition(condition.into())
-    }
 }
 
 /// What a strategy is made from in one region.
@@ -141,6 +163,21 @@ pub(super) struct Context<'a> {
     pub(super) canonical: &'a [(usize, usize)],
 }
 
+impl Context<'_> {
+    fn wrong_count(&self) -> Obstacle {
+        Obstacle::Count {
+            states: self.states.len(),
+            conserved: self.multiplier.len(),
+        }
+    }
+
+    /// Whether one ψ is not proved to be free of the time.
+    fn depends_on_time(&self, dag: &Dag) -> bool {
+        let mut rates = self.time_derivative.iter();
+        rates.any(|&by_time| !is_proved_zero(dag, by_time))
+    }
+}
+
 /// The first strategy that fits, with the reasons against those before it.
 pub(super) fn choose(dag: &mut Dag, context: &Context<'_>) -> (Strategy, Vec<Refusal>) {
     if context.multiplier.is_empty() {
@@ -148,19 +185,15 @@ pub(super) fn choose(dag: &mut Dag, context: &Context<'_>) -> (Strategy, Vec<Ref
         return (Strategy::Midpoint { field }, Vec::new());
     }
     let mut refusals = Vec::new();
-    match skew_pairing::derive(dag, context) {
-        Ok(strategy) => return (strategy, refusals),
-        Err(obstacle) => refusals.push(Refusal {
-            strategy: "skew pairing",
-            obstacle,
-        }),
-    }
-    match cross_product::derive(dag, context) {
-        Ok(strategy) => return (strategy, refusals),
-        Err(obstacle) => refusals.push(Refusal {
-            strategy: "cross product",
-            obstacle,
-        }),
+    for strategy in [Conditional::SkewPairing, Conditional::CrossProduct] {
+        let derived = match strategy {
+            Conditional::SkewPairing => skew_pairing::derive(dag, context),
+            Conditional::CrossProduct => cross_product::derive(dag, context),
+        };
+        match derived {
+            Ok(derived) => return (derived, refusals),
+            Err(obstacle) => refusals.push(Refusal { strategy, obstacle }),
+        }
     }
     (minimal_norm::derive(dag, context), refusals)
 }

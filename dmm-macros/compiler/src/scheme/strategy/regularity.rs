@@ -4,7 +4,7 @@
 //! would still conserve ψ and move wrongly, or not at all. Such an α is not used.
 
 use super::Obstacle;
-use crate::algebra::{Dag, Function, Id, Math, Name, divide_exactly, to_text};
+use crate::algebra::{Dag, Domain, Id, Math, Name, divide_exactly};
 
 /// A power high enough to tell that a factor vanishes only where a denominator does: √u and
 /// u have the same zeros, and u divides (√u)⁴.
@@ -20,8 +20,10 @@ pub(super) fn regular_quotient(
     poles: &[Id],
 ) -> Result<Id, Obstacle> {
     let Some(quotient) = divide_exactly(dag, numerator, denominator) else {
-        let [numerator, denominator] = [numerator, denominator].map(|id| to_text(dag, id));
-        return Err(format!("α = ({numerator})/({denominator}) has no normal form").into());
+        return Err(Obstacle::NoNormalForm {
+            numerator,
+            denominator,
+        });
     };
     for factor in quotient.denominator {
         if depends_on_any(dag, factor, states) && !vanishes_within(dag, factor, states, poles) {
@@ -40,10 +42,11 @@ pub(super) fn poles(dag: &mut Dag, roots: impl IntoIterator<Item = Id>) -> Vec<I
             Math::Pow([base, exponent]) if !is_nonnegative_integer(dag, exponent) => {
                 poles.push(base);
             }
-            Math::Call(Function::Tan, argument) => {
-                poles.push(dag.call(Function::Cos, argument));
-            }
-            Math::Call(Function::Ln, argument) => poles.push(argument),
+            Math::Call(function, argument) => match function.properties().domain {
+                Domain::NonZero(of) => poles.push(dag.call(of, argument)),
+                Domain::Positive => poles.push(argument),
+                _ => {}
+            },
             _ => {}
         }
     }

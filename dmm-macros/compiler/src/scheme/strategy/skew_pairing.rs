@@ -19,15 +19,10 @@ use crate::algebra::{Dag, Id, is_proved_zero};
 /// The strategy, or why it does not fit.
 pub(super) fn derive(dag: &mut Dag, context: &Context<'_>) -> Result<Strategy, Obstacle> {
     let [gradient] = context.multiplier else {
-        let count = context.multiplier.len();
-        return Err(format!("it takes one conserved quantity, and there are {count}").into());
+        return Err(context.wrong_count());
     };
-    if context
-        .time_derivative
-        .iter()
-        .any(|&by_time| !is_proved_zero(dag, by_time))
-    {
-        return Err("ψ depends on the time".into());
+    if context.depends_on_time(dag) {
+        return Err(Obstacle::Time);
     }
     let canonical = canonical(dag, context, gradient);
     let is_paired = |state: usize| {
@@ -55,9 +50,7 @@ pub(super) fn derive(dag: &mut Dag, context: &Context<'_>) -> Result<Strategy, O
         obstacle: None,
     };
     let Some(found) = matching.complete(dag, &remaining) else {
-        return Err(matching.obstacle.unwrap_or_else(|| {
-            "the states do not fall into pairs with fᵢ ∂ᵢψ + fⱼ ∂ⱼψ = 0".into()
-        }));
+        return Err(matching.obstacle.unwrap_or(Obstacle::NoPairs));
     };
     let pairs: Vec<Pairing> = canonical.into_iter().chain(found).collect();
     let value = assemble(

@@ -131,22 +131,29 @@ impl Writer<'_, '_> {
             } => self.exponential(argument, derivative, own),
             Recurrence::Pair {
                 functions,
+                is_negative,
                 argument,
                 derivative,
                 places,
                 own,
             } => {
-                self.pair(functions, argument, derivative, places);
+                self.pair((functions, is_negative), argument, derivative, places);
                 self.newest(own)
             }
             Recurrence::Computed(own) => self.newest(own),
             Recurrence::Tangent {
                 function,
+                is_negative,
                 argument,
                 derivative,
                 own,
                 partner,
-            } => self.tangent(function, argument, derivative, [own, partner]),
+            } => self.tangent(
+                (function, is_negative),
+                argument,
+                derivative,
+                [own, partner],
+            ),
             Recurrence::Logarithm(primitive) => {
                 let start = self.start(Function::Ln, primitive.argument);
                 self.primitive(&primitive, &start)
@@ -208,7 +215,7 @@ impl Writer<'_, '_> {
     /// w = tan u or tanh u, and v = 1 ± w², one order behind w.
     fn tangent(
         &mut self,
-        function: Function,
+        (function, is_negative): (Function, bool),
         argument: Id,
         derivative: Place,
         [own, partner]: [Place; 2],
@@ -220,7 +227,7 @@ impl Writer<'_, '_> {
         let value = Self::call("integral", &[quote!(&#d), quote!(&#v)]);
         let square = Self::call("square", &[quote!(&#w)]);
         let one = quote!(#scalar::from_f64(1.0));
-        let partner = Self::call("plus", &[minus(function == Function::Tanh, &square), one]);
+        let partner = Self::call("plus", &[minus(is_negative, &square), one]);
         self.block.push(quote! {
             #w[at] = if at == 0 { #start } else { #value };
             #v[at] = #partner;
@@ -266,7 +273,7 @@ impl Writer<'_, '_> {
     /// sin and cos, sinh and cosh: each the integral of the other.
     fn pair(
         &mut self,
-        functions: [Function; 2],
+        (functions, is_negative): ([Function; 2], bool),
         argument: Id,
         derivative: Place,
         places: [Place; 2],
@@ -276,7 +283,7 @@ impl Writer<'_, '_> {
         let [s, c] = places.map(|place| self.place(place));
         let next_sine = Self::call("integral", &[quote!(&#d), quote!(&#c)]);
         let next_cosine = Self::call("integral", &[quote!(&#d), quote!(&#s)]);
-        let next_cosine = minus(functions[0] == Function::Sin, &next_cosine);
+        let next_cosine = minus(is_negative, &next_cosine);
         self.block.push(quote! {
             let (sine, cosine) = if at == 0 {
                 (#sine, #cosine)

@@ -1,12 +1,13 @@
-//! What was proved of a region, in words: the lines that every form of the listing shows.
+//! What is known of a region, in words: the lines that every form of the listing shows.
 
-use super::{CheckedCondition, Evidence, Proofs, Scheme};
 use crate::algebra::{Dag, Id, to_text};
-use crate::model::{Conservation, Conserved, Independence, Region};
+use crate::model::{Conserved, Region};
+use crate::proofs::{Conservation, Independence};
+use crate::scheme::{CheckedCondition, Evidence, Proofs, RegionScheme, Scheme};
 
 /// How a statement is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Grounds {
+pub(super) enum Grounds {
     /// It was proved symbolically.
     Proved,
     /// It holds because of how f was made.
@@ -21,7 +22,7 @@ pub enum Grounds {
 
 impl Grounds {
     /// The word that the listing uses.
-    pub fn word(self) -> &'static str {
+    pub(super) fn word(self) -> &'static str {
         match self {
             Self::Proved => "proved",
             Self::ByConstruction => "by construction",
@@ -34,34 +35,29 @@ impl Grounds {
 
 /// One statement about a region, and how it is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub(super) struct Finding {
     /// How it is known.
-    pub grounds: Grounds,
+    pub(super) grounds: Grounds,
     /// The statement, in the notation of the listing.
-    pub statement: String,
+    pub(super) statement: String,
     /// What it depends on or where it fails; may be empty.
-    pub remark: String,
+    pub(super) remark: String,
 }
 
-/// What is known of region number `region` of `scheme`: conservation of every ψ, their
-/// independence, interfaces that are constant along the flow, the identities of f^τ, and the
-/// conditions that a run checks.
-pub fn findings(scheme: &Scheme, region: usize) -> Vec<Finding> {
-    let (Some(declared), Some(derived)) =
-        (scheme.model.regions.get(region), scheme.regions.get(region))
-    else {
-        return Vec::new();
-    };
+/// What is known of a region of `scheme`: conservation of every ψ, their independence,
+/// interfaces that are constant along the flow, the identities of f^τ, and the conditions that a
+/// run checks.
+pub(super) fn findings(scheme: &Scheme, region: &Region, derived: &RegionScheme) -> Vec<Finding> {
     let dag = scheme.dag();
-    let mut findings: Vec<Finding> = declared
-        .conserved
-        .iter()
-        .map(|psi| conservation(dag, psi))
+    let proved = &derived.proved;
+    let mut findings: Vec<Finding> = (region.conserved.iter())
+        .zip(&proved.evidence)
+        .map(|(psi, evidence)| conservation(dag, psi, evidence))
         .collect();
-    findings.extend(independence(dag, declared));
-    for &level in &derived.proofs.levels {
+    findings.extend(independence(dag, region, &proved.independence));
+    for &level in &derived.levels {
         if let Some(interface) = scheme.model.interfaces.get(level) {
-            let (name, own) = (&interface.ident, &declared.ident);
+            let (name, own) = (&interface.ident, &region.ident);
             findings.push(Finding {
                 grounds: Grounds::Proved,
                 statement: format!("d{name}/dt = 0"),
@@ -71,13 +67,9 @@ pub fn findings(scheme: &Scheme, region: usize) -> Vec<Finding> {
             });
         }
     }
-    findings.extend(identities(declared, &derived.proofs));
-    findings.extend(
-        derived
-            .checked
-            .iter()
-            .map(|condition| checked(dag, declared, condition)),
-    );
+    findings.extend(identities(region, &derived.proofs));
+    let checks = derived.checked.iter();
+    findings.extend(checks.map(|condition| checked(dag, region, condition)));
     findings
 }
 
@@ -88,24 +80,14 @@ fn checked(dag: &Dag, region: &Region, condition: &CheckedCondition) -> Finding 
         statement: condition.condition.statement(dag),
         remark: format!(
             "needed by {}: a run ends where this fails",
-            quantities(region, condition)
+            condition.names(region)
         ),
     }
 }
 
-/// The names of the quantities that a condition is about.
-pub fn quantities(region: &Region, condition: &CheckedCondition) -> String {
-    let quantities = condition.quantities.iter();
-    let names = quantities.filter_map(|&index| region.conserved.get(index));
-    let names: Vec<String> = names
-        .map(|psi| psi.ident.to_string().trim_start_matches("r#").to_owned())
-        .collect();
-    names.join(", ")
-}
-
-fn conservation(dag: &Dag, psi: &Conserved) -> Finding {
+fn conservation(dag: &Dag, psi: &Conserved, evidence: &Conservation) -> Finding {
     let name = &psi.ident;
-    let (grounds, remark) = match &psi.evidence {
+    let (grounds, remark) = match evidence {
         Conservation::Proved(conditions) => {
             let conditions: Vec<String> = conditions
                 .iter()
@@ -118,7 +100,6 @@ fn conservation(dag: &Dag, psi: &Conserved) -> Finding {
             Grounds::Assumed,
             format!("|d{name}/dt| ≤ {largest:.1e} of its terms at {points} points"),
         ),
-        Conservation::Unknown => (Grounds::NotProved, String::new()),
     };
     Finding {
         grounds,
@@ -128,14 +109,14 @@ fn conservation(dag: &Dag, psi: &Conserved) -> Finding {
 }
 
 /// Independence of the gradients, nothing without a ψ.
-fn independence(dag: &Dag, region: &Region) -> Option<Finding> {
+fn independence(dag: &Dag, region: &Region, known: &Independence) -> Option<Finding> {
     let statement = match region.conserved.as_slice() {
         [] => return None,
         [_] => "∇ψ ≠ 0",
         _ => "the gradients ∇ψ are linearly independent",
     };
-    let (grounds, statement, remark) = match &region.independence {
-        Independence::Nothing => (
+    let (grounds, statement, remark) = match known {
+        Independence::Undecided => (
             Grounds::NotProved,
             statement.to_owned(),
             "it could not be decided".to_owned(),
@@ -213,7 +194,11 @@ mod tests {
         );
         let scheme = crate::read(text.parse().expect("tokens")).expect("a scheme");
         [0, 1].map(|region| {
-            let mut findings = findings(&scheme, region);
+            let mut findings = findings(
+                &scheme,
+                &scheme.model.regions[region],
+                &scheme.regions[region],
+            );
             findings.retain(|finding| finding.statement.contains("wall"));
             findings
         })
