@@ -174,7 +174,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         weights: &Weights<N>,
         (psi, multiplier): &(Vector<f64, M>, Matrix<f64, M, N>),
     ) -> Vector<f64, N> {
-        if M == 0 {
+        if M == 0 || dynamics.quantities() == 0 {
             return Vector::zeros();
         }
         let little = self.scale * (Self::LITTLE * Self::LITTLE * weights.largest);
@@ -278,7 +278,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
         displacement: &Vector<f64, N>,
         corrects: bool,
     ) -> State<N> {
-        if M == 0 || !corrects {
+        if M == 0 || dynamics.quantities() == 0 || !corrects {
             return state.normalised();
         }
         let weights = Weights::new(&state.x, displacement);

@@ -88,17 +88,22 @@
 mod arithmetic;
 mod contract;
 mod driver;
+pub mod dynamic;
 mod ensemble;
 mod error;
 mod events;
 mod expansion;
 mod level;
 mod method;
+#[cfg(feature = "model")]
+mod model;
 mod output;
 pub mod series;
 pub mod special;
 #[doc(hidden)]
 pub mod support;
+#[cfg(feature = "model")]
+mod tape;
 
 pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
 pub use contract::{
@@ -116,4 +121,6 @@ pub use method::one_step::{
 };
 pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure};
+#[cfg(feature = "model")]
+pub use model::{Model, ModelError, ModelVisitor};
 pub use output::{End, Halted, Interrupted, Observer, Point, Solution, Transition};

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 13] = [
+const LAYERS: [&str; 16] = [
     "error",
     "arithmetic",
     "special",
     "series",
     "contract",
+    "tape",
     "expansion",
     "events",
     "level",
@@ -17,6 +18,8 @@ const LAYERS: [&str; 13] = [
     "output",
     "driver",
     "ensemble",
+    "dynamic",
+    "model",
     "lib",
 ];
 

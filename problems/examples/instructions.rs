@@ -92,16 +92,12 @@ fn run_until(place: &str, problems: &[String]) -> Outcome<ExitCode> {
     let (name, measured) = (problems.first(), MEASURED.get(place.parse::<usize>()?));
     let (name, measured) = name.zip(measured).ok_or("nothing to run")?;
     let problem = registry::find(name)?;
-    let run = run_of(&*problem, *measured, t_end.parse()?);
+    let run = run_of(&problem, *measured, t_end.parse()?);
     problem.integrate_silently(&run)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn run_of(
-    problem: &dyn Problem,
-    (method, tolerance): (MethodName, Option<f64>),
-    t_end: f64,
-) -> Run {
+fn run_of(problem: &Problem, (method, tolerance): (MethodName, Option<f64>), t_end: f64) -> Run {
     let default = problem.default_run();
     Run {
         method,
@@ -144,7 +140,7 @@ fn measure(arguments: &Arguments) -> Outcome<ExitCode> {
     let mut slower = 0;
     for problem in &problems {
         for (place, _) in MEASURED.iter().enumerate() {
-            let row = row(&**problem, place)?;
+            let row = row(problem, place)?;
             slower += u32::from(print(&row, &recorded));
             rows.push(row);
         }
@@ -190,7 +186,7 @@ fn print(row: &Row, recorded: &[Row]) -> bool {
 }
 
 /// Counts the instructions of a step.
-fn row(problem: &dyn Problem, place: usize) -> Outcome<Row> {
+fn row(problem: &Problem, place: usize) -> Outcome<Row> {
     let (method, tolerance) = MEASURED[place];
     let description = problem.description();
     let whole = run_of(problem, (method, tolerance), description.t_end);

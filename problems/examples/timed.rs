@@ -44,17 +44,17 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
     match words {
         ["schemes"] => Ok(schemes()),
-        ["describe", name] => describe(&*registry::find(name)?),
+        ["describe", name] => describe(&registry::find(name)?),
         ["run", name, scheme, control, t_end, repeats] => {
             let problem = registry::find(name)?;
-            let run = request(&*problem, scheme, control, t_end.parse()?)?;
-            timed(&*problem, &run, repeats.parse()?)
+            let run = request(&problem, scheme, control, t_end.parse()?)?;
+            timed(&problem, &run, repeats.parse()?)
         }
         ["ensemble", name, scheme, control, t_end, file, how, repeats] => {
             let problem = registry::find(name)?;
-            let run = request(&*problem, scheme, control, t_end.parse()?)?;
-            let starts = starts(&*problem, &run, file)?;
-            ensemble(&*problem, &run, &starts, *how == "lanes", repeats.parse()?)
+            let run = request(&problem, scheme, control, t_end.parse()?)?;
+            let starts = starts(&problem, &run, file)?;
+            ensemble(&problem, &run, &starts, *how == "lanes", repeats.parse()?)
         }
         _ => Err(format!("no such request: {}", words.join(" ")).into()),
     }
@@ -71,7 +71,7 @@ fn schemes() -> Value {
 }
 
 fn request(
-    problem: &dyn Problem,
+    problem: &Problem,
     scheme: &str,
     control: &str,
     t_end: f64,
@@ -95,7 +95,7 @@ fn request(
     })
 }
 
-fn timed(problem: &dyn Problem, run: &Run, repeats: usize) -> Result<Value, Box<dyn Error>> {
+fn timed(problem: &Problem, run: &Run, repeats: usize) -> Result<Value, Box<dyn Error>> {
     let mut seconds = Vec::with_capacity(repeats);
     let mut finish = None;
     for _ in 0..repeats.max(1) {
@@ -114,7 +114,7 @@ fn timed(problem: &dyn Problem, run: &Run, repeats: usize) -> Result<Value, Box<
 }
 
 /// Where the runs of a file start.
-fn starts(problem: &dyn Problem, run: &Run, file: &str) -> Result<Vec<Start>, Box<dyn Error>> {
+fn starts(problem: &Problem, run: &Run, file: &str) -> Result<Vec<Start>, Box<dyn Error>> {
     let mut reader = csv::Reader::from_path(file)?;
     let names = reader.headers()?.clone();
     let (states, parameters) = (problem.states(), problem.parameters());
@@ -141,7 +141,7 @@ fn starts(problem: &dyn Problem, run: &Run, file: &str) -> Result<Vec<Start>, Bo
 
 /// All runs on one core.
 fn ensemble(
-    problem: &dyn Problem,
+    problem: &Problem,
     run: &Run,
     starts: &[Start],
     lanes: bool,
@@ -181,7 +181,7 @@ fn ensemble(
     }
 }
 
-fn describe(problem: &dyn Problem) -> Result<Value, Box<dyn Error>> {
+fn describe(problem: &Problem) -> Result<Value, Box<dyn Error>> {
     let model = model(problem)?;
     let formula = |id: Id| -> Result<String, Box<dyn Error>> {
         let text = to_text(&model.dag, id);
@@ -218,14 +218,14 @@ fn describe(problem: &dyn Problem) -> Result<Value, Box<dyn Error>> {
 }
 
 /// The names resolved, from the declaration.
-fn model(problem: &dyn Problem) -> Result<Model, Box<dyn Error>> {
+fn model(problem: &Problem) -> Result<Model, Box<dyn Error>> {
     let mut diagnostics = Diagnostics::new();
     let model = syntax::parse(problem.declaration().parse()?, &mut diagnostics)
         .and_then(|declaration| check::resolve(declaration, &mut diagnostics));
     model.ok_or_else(|| diagnostics.messages().join("; ").into())
 }
 
-fn samples(problem: &dyn Problem) -> Result<Vec<Value>, Box<dyn Error>> {
+fn samples(problem: &Problem) -> Result<Vec<Value>, Box<dyn Error>> {
     let samples = Reference::of(problem)?.map_or_else(Vec::new, |reference| reference.samples);
     let sample = |sample: &dmm_problems::reference::Sample| {
         json!({

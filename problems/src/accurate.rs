@@ -41,7 +41,7 @@ pub struct Node {
 ///
 /// What is summed and extrapolated is the difference to the state at the start: it is smaller
 /// than the state, and so are its rounding errors, which the extrapolation enlarges.
-fn basic_step(problem: &dyn Problem, node: &Node, step: f64) -> (Vec<f64>, f64) {
+fn basic_step(problem: &Problem, node: &Node, step: f64) -> (Vec<f64>, f64) {
     let add = |x: &[f64], y: &[f64], factor: f64| -> Vec<f64> {
         x.iter().zip(y).map(|(x, y)| x + factor * y).collect()
     };
@@ -88,7 +88,7 @@ fn largest(x: &[f64]) -> f64 {
 
 /// An accepted step towards `t_end`, and the size to try next.
 fn accepted_step(
-    problem: &dyn Problem,
+    problem: &Problem,
     node: &Node,
     t_end: f64,
     mut step: f64,
@@ -118,7 +118,7 @@ fn accepted_step(
 ///
 /// # Errors
 /// [`Stuck`] if the steps become too small.
-pub fn state_at(problem: &dyn Problem, node: &Node, t: f64) -> Result<Vec<f64>, Stuck> {
+pub fn state_at(problem: &Problem, node: &Node, t: f64) -> Result<Vec<f64>, Stuck> {
     let (mut node, mut step) = (node.clone(), LARGEST_STEP);
     while node.t < t {
         (node, step) = accepted_step(problem, &node, t, step)?;
@@ -131,7 +131,7 @@ pub fn state_at(problem: &dyn Problem, node: &Node, t: f64) -> Result<Vec<f64>, 
 /// # Errors
 /// [`Stuck`] if the steps become too small.
 pub fn crossings(
-    problem: &dyn Problem,
+    problem: &Problem,
     initial: &[f64],
     t_end: f64,
     count: usize,
@@ -172,7 +172,7 @@ pub fn crossings(
 }
 
 /// The first point with g of the other sign, by Illinois' regula falsi on the step from `node`.
-fn root(problem: &dyn Problem, node: &Node, upper: f64, side: f64) -> (f64, Vec<f64>) {
+fn root(problem: &Problem, node: &Node, upper: f64, side: f64) -> (f64, Vec<f64>) {
     let at = |t: f64| {
         let (x, _) = basic_step(problem, node, t - node.t);
         (side * problem.switching_function(0, t, &x), x)
@@ -225,11 +225,11 @@ mod tests {
     #[test]
     fn agrees_with_the_reference_data() {
         for problem in registry::all() {
-            let Some(reference) = Reference::of(&*problem).unwrap() else {
+            let Some(reference) = Reference::of(&problem).unwrap() else {
                 continue;
             };
             let initial = problem.description().initial;
-            let nodes = crossings(&*problem, initial, 50.0, usize::MAX).unwrap();
+            let nodes = crossings(&problem, initial, 50.0, usize::MAX).unwrap();
             let expected = reference
                 .crossings
                 .iter()
@@ -253,7 +253,7 @@ mod tests {
             for sample in &reference.samples {
                 if sample.t <= 50.0 {
                     let from = &nodes[sample.crossings_before as usize];
-                    let x = state_at(&*problem, from, sample.t).unwrap();
+                    let x = state_at(&problem, from, sample.t).unwrap();
                     let error = difference(&sample.x, &x);
                     assert!(
                         error < AGREEMENT,
@@ -274,8 +274,8 @@ mod tests {
         let omega = (2.0 * (1.0 - p * p / 2.0 - q.tanh().powi(2))).sqrt();
         let amplitude = (q.sinh().powi(2) + (p * q.cosh() / omega).powi(2)).sqrt();
         let phase = (q.sinh() / amplitude).asin();
-        let nodes = crossings(&*problem, &[q, p], 20.0, 1).unwrap();
-        let x = state_at(&*problem, &nodes[0], 20.0).unwrap();
+        let nodes = crossings(&problem, &[q, p], 20.0, 1).unwrap();
+        let x = state_at(&problem, &nodes[0], 20.0).unwrap();
         let expected = (amplitude * (omega * 20.0 + phase).sin()).asinh();
         assert!((x[0] - expected).abs() < AGREEMENT);
     }

@@ -30,7 +30,7 @@ impl Conservation {
 /// # Errors
 /// Whatever stops the integration.
 pub fn measure(
-    problem: &dyn Problem,
+    problem: &Problem,
     run: &Run,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Conservation, Error> {
@@ -50,7 +50,7 @@ pub fn measure(
 }
 
 /// The exact level of each region, if it is the same in every segment.
-fn exact_levels(problem: &dyn Problem, run: &Run) -> Option<Vec<Vec<f64>>> {
+fn exact_levels(problem: &Problem, run: &Run) -> Option<Vec<Vec<f64>>> {
     if !problem.is_reference_run(&run.initial) {
         return None;
     }

@@ -153,7 +153,7 @@ pub fn fitted_order(step_sizes: &[f64], errors: &[f64]) -> f64 {
 /// # Errors
 /// [`StudyError`]
 pub fn study(
-    problem: &dyn Problem,
+    problem: &Problem,
     plan: &Plan,
     mut progress: impl FnMut(),
 ) -> Result<Study, StudyError> {

@@ -14,7 +14,6 @@
 pub mod accurate;
 pub mod conservation;
 pub mod convergence;
-pub mod entry;
 pub mod method;
 pub mod midpoint;
 pub mod perturbed;

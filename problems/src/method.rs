@@ -1,7 +1,8 @@
 //! The schemes by name: a row of `methods!` is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
-use dmm_runtime::{Best, Composed, Method, Symmetric, Taylor, Uniform};
+use dmm_runtime::dynamic::{MethodChoice, MethodVisitor};
+use dmm_runtime::{Best, Composed, Symmetric, Taylor, Uniform};
 
 use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
@@ -17,15 +18,6 @@ pub enum Control {
     },
     /// A tolerance: steps of the scheme's own choice.
     Tolerance,
-}
-
-/// What is done with a scheme of whatever type.
-pub trait MethodVisitor {
-    /// The result.
-    type Output;
-
-    /// Does it.
-    fn visit<Met: Method>(self, method: Met) -> Self::Output;
 }
 
 const fn order(order: i32) -> Control {
@@ -90,14 +82,30 @@ macro_rules! methods {
             }
         }
 
-        impl Run {
-            /// Hands the scheme of the run to `visitor`.
-            pub(crate) fn visit_method<V: MethodVisitor>(&self, visitor: V) -> V::Output {
+        impl MethodChoice for Run {
+            fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
                 match self.method {
                     $(MethodName::$variant => visitor.visit(apply(self, $scheme)),)+
                     $(MethodName::$other => visitor.visit(apply(self, $other_scheme)),)+
                     MethodName::Perturbed(late) => visitor.visit(symmetric(self).locator(late)),
                 }
+            }
+
+            /// The fastest with uniform and with chosen steps.
+            fn visit_unobserved<V: MethodVisitor>(&self, visitor: V) -> Option<V::Output> {
+                let Self {
+                    tolerance,
+                    level_correction,
+                    ..
+                } = *self;
+                Some(match self.method {
+                    MethodName::Symmetric => visitor.visit(symmetric(self)),
+                    MethodName::Taylor => visitor
+                        .visit(Taylor::tolerance(tolerance).level_correction(level_correction)),
+                    MethodName::Best => visitor
+                        .visit(Best::tolerance(tolerance).level_correction(level_correction)),
+                    _ => return None,
+                })
             }
         }
     };
@@ -125,29 +133,6 @@ methods! {
     for_comparison {
         /// the explicit midpoint rule, which does not conserve
         ExplicitMidpoint, "explicit-midpoint", order(2), |run| ExplicitMidpoint::step_size(run.step_size);
-    }
-}
-
-impl Run {
-    /// Hands the scheme of the run to `visitor`, if it is one that is compiled for runs that
-    /// are not observed too: the fastest with uniform and with chosen steps. The others would take
-    /// minutes more to compile for every problem.
-    pub(crate) fn visit_unobserved<V: MethodVisitor>(&self, visitor: V) -> Option<V::Output> {
-        let Self {
-            tolerance,
-            level_correction,
-            ..
-        } = *self;
-        Some(match self.method {
-            MethodName::Symmetric => visitor.visit(symmetric(self)),
-            MethodName::Taylor => {
-                visitor.visit(Taylor::tolerance(tolerance).level_correction(level_correction))
-            }
-            MethodName::Best => {
-                visitor.visit(Best::tolerance(tolerance).level_correction(level_correction))
-            }
-            _ => return None,
-        })
     }
 }
 

@@ -1,11 +1,16 @@
 //! Problems as objects: the same operations on every system, whatever its dimension.
 //!
-//! [`Problem`] hides the number of states; [`Entry`](crate::entry::Entry) implements it
-//! for a system declared by `pws!` together with its [`Description`].
+//! A [`Problem`] is a system of any dimension, compiled with the program or at run time, with its
+//! [`Description`].
 
 use std::ops::ControlFlow;
 
-use dmm_runtime::{Error, Statistics};
+use dmm_runtime::dynamic;
+pub use dmm_runtime::dynamic::{
+    Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism, Record, Sink,
+    Start,
+};
+use dmm_runtime::{Error, Metadata, Model, Statistics};
 
 use crate::method::MethodName;
 
@@ -53,226 +58,190 @@ pub struct Run {
     pub output_times: OutputTimes,
 }
 
-/// Times at which [`Sink::output`] is called.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub enum OutputTimes {
-    /// None.
-    #[default]
-    None,
-    /// These, in ascending order.
-    At(Vec<f64>),
-    /// The multiples of an interval.
-    Every(f64),
-}
-
-impl OutputTimes {
-    /// The `k`-th, from 0.
-    pub(crate) fn get(&self, k: usize) -> Option<f64> {
-        match self {
-            Self::None => None,
-            Self::At(times) => times.get(k).copied(),
-            Self::Every(interval) => Some((k + 1) as f64 * interval),
+impl Run {
+    /// The initial value problem.
+    fn from(&self) -> InitialValue {
+        InitialValue {
+            initial: self.initial.clone(),
+            t_end: self.t_end,
+            output_times: self.output_times.clone(),
         }
     }
 }
 
-/// A point of a run, with the conserved quantities of its region.
-#[derive(Clone, Copy, Debug)]
-pub struct Record<'a> {
-    /// Time.
-    pub t: f64,
-    /// State.
-    pub x: &'a [f64],
-    /// Index of the region.
-    pub region: usize,
-    /// ψ(t, x)
-    pub psi: &'a [f64],
-    /// The largest Σ|terms of ψ(t, x)| since the entry to the region. (At a single point the
-    /// terms may all vanish, as u L and μ y/r do at an apex of a Kepler orbit.)
-    pub size: &'a [f64],
-    /// ψ on entry to the region.
-    pub level: &'a [f64],
-    /// Whether it is a time of output, rather than the end of a step.
-    pub is_output: bool,
-}
-
-impl Record<'_> {
-    /// ψ − ψ_ref, in units of ε·Σ|terms of ψ|, ε = 2⁻⁵²; the largest over the quantities.
-    pub fn error_ulps(&self) -> f64 {
-        self.worst(|error, size| error / (f64::EPSILON * size))
-    }
-
-    /// |ψ − ψ_ref|, the largest over the quantities.
-    pub fn error(&self) -> f64 {
-        self.worst(|error, _| error)
-    }
-
-    fn worst(&self, measure: impl Fn(f64, f64) -> f64) -> f64 {
-        let errors = self.psi.iter().zip(self.level).zip(self.size);
-        errors.fold(0.0, |worst, ((psi, level), size)| {
-            let error = (psi - level).abs();
-            // a NaN must not be lost
-            let value = if error == 0.0 {
-                0.0
-            } else {
-                measure(error, *size)
-            };
-            if value > worst || value.is_nan() {
-                value
-            } else {
-                worst
-            }
-        })
-    }
-}
-
-/// How a run ended.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Finish {
-    /// The state at the end time.
-    pub x: Vec<f64>,
-    /// Counters of the run.
-    pub statistics: Statistics,
-}
-
-/// Where a member of an ensemble starts: all parameters and states, in their order.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Start {
-    /// The parameters.
-    pub parameters: Vec<f64>,
-    /// x(0)
-    pub initial: Vec<f64>,
-}
-
-/// Where a member of an ensemble ended.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Arrival {
-    /// Time.
-    pub t: f64,
-    /// State.
-    pub x: Vec<f64>,
-    /// Index of the region.
-    pub region: usize,
-    /// Counters.
-    pub statistics: Statistics,
-}
-
-/// What became of a member of an ensemble: where it came to, if it started at all, and what
-/// stopped it, if anything did.
-#[derive(Clone, PartialEq, Debug)]
-pub struct MemberOutcome {
-    /// Where it came to.
-    pub arrival: Option<Arrival>,
-    /// What stopped it.
-    pub error: Option<Error>,
-}
-
-/// How an ensemble is computed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Parallelism {
-    /// Threads, or one for each core.
-    pub threads: Option<usize>,
-    /// Whether several trajectories are integrated in a register.
-    pub lanes: bool,
-}
-
-/// A transition of a run.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Crossed {
-    /// t̂*
-    pub t: f64,
-    /// x̂*
-    pub x: Vec<f64>,
-    /// Index of the interface.
-    pub interface: usize,
-    /// Index of the region that is left.
-    pub from: usize,
-    /// Index of the region that is entered.
-    pub to: usize,
-    /// dg/dt under the field that is left.
-    pub rate_from: f64,
-    /// dg/dt under the field that is entered.
-    pub rate_to: f64,
-}
-
-/// What listens to a run.
-pub trait Sink {
-    /// A point: the end of a step, at a transition one with each region, and each time of
-    /// output.
-    fn record(&mut self, _record: &Record<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    /// A transition.
-    fn transition(&mut self, _crossed: &Crossed) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    /// The state at the next of [`Run::output_times`], before it is recorded.
-    fn output(&mut self, _t: f64, _x: &[f64]) {}
-
-    /// Whether [`Sink::record`] is to be called.
-    fn wants_records(&self) -> bool {
-        true
-    }
-}
+/// A system whose methods are those of a [`Run`].
+pub type AnySystem = dyn dynamic::AnySystem<Run>;
 
 /// A problem, with its system's present parameters.
-pub trait Problem: Send + Sync {
+#[derive(Debug)]
+pub struct Problem {
+    description: Description,
+    /// Of a run, unless another is given.
+    method: MethodName,
+    system: Box<AnySystem>,
+}
+
+impl Clone for Problem {
+    fn clone(&self) -> Self {
+        Self {
+            description: self.description,
+            method: self.method,
+            system: self.system.duplicate(),
+        }
+    }
+}
+
+impl Problem {
+    /// An initial value problem of a system.
+    pub fn new(description: Description, system: Box<AnySystem>) -> Self {
+        Self {
+            description,
+            method: MethodName::Symmetric,
+            system,
+        }
+    }
+
+    /// A system that was compiled at run time and has no description: it starts at the origin.
+    ///
+    /// # Errors
+    /// One that is too large.
+    pub fn own(model: Model) -> Result<Self, Error> {
+        let metadata = model.metadata();
+        let system = model.into_any()?;
+        let description = Description {
+            name: metadata.name,
+            title: "",
+            source: "",
+            // kept like the names
+            initial: Vec::leak(vec![0.0; metadata.states.len()]),
+            t_end: 10.0,
+            step_size: 1e-2,
+            longest: None,
+            reference: None,
+        };
+        Ok(Self {
+            method: MethodName::Best,
+            ..Self::new(description, system)
+        })
+    }
+
     /// Name, source and initial value problem.
-    fn description(&self) -> &Description;
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// Names, and where the regions lie.
+    pub fn metadata(&self) -> &'static Metadata {
+        self.system.metadata()
+    }
+
     /// The name of the declared system.
-    fn system_name(&self) -> &'static str;
+    pub fn system_name(&self) -> &'static str {
+        self.metadata().name
+    }
+
     /// The declaration.
-    fn declaration(&self) -> &str;
+    pub fn declaration(&self) -> &str {
+        self.system.declaration()
+    }
+
     /// The derived scheme in readable mathematics.
-    fn listing(&self) -> &str;
+    pub fn listing(&self) -> &str {
+        self.system.listing()
+    }
+
     /// Names of the states.
-    fn states(&self) -> &'static [&'static str];
+    pub fn states(&self) -> &'static [&'static str] {
+        self.metadata().states
+    }
+
     /// Names of the interfaces.
-    fn interfaces(&self) -> &'static [&'static str];
+    pub fn interfaces(&self) -> &'static [&'static str] {
+        self.metadata().interfaces
+    }
+
     /// Names of the regions.
-    fn regions(&self) -> Vec<&'static str>;
+    pub fn regions(&self) -> Vec<&'static str> {
+        let regions = self.metadata().regions.iter();
+        regions.map(|region| region.name).collect()
+    }
+
     /// Names of the quantities that a region conserves.
-    fn conserved_names(&self, region: usize) -> &'static [&'static str];
+    pub fn conserved_names(&self, region: usize) -> &'static [&'static str] {
+        let region = self.metadata().regions.get(region);
+        region.map_or(&[], |region| region.conserved)
+    }
+
     /// The region on a side (−1 or 1) of the first interface.
-    fn region_on_side(&self, sign: f64) -> Option<usize>;
+    pub fn region_on_side(&self, sign: f64) -> Option<usize> {
+        let mut regions = self.metadata().regions.iter();
+        regions.position(|region| {
+            let side = region.sides.first();
+            side.is_some_and(|side| side.sign() == sign)
+        })
+    }
+
     /// Names and present values of the parameters.
-    fn parameters(&self) -> Vec<(&'static str, f64)>;
+    pub fn parameters(&self) -> Vec<(&'static str, f64)> {
+        let names = self.metadata().parameters.iter().copied();
+        names.zip(self.system.parameters()).collect()
+    }
+
     /// Sets a parameter; false if there is none of that name.
-    fn set_parameter(&mut self, name: &str, value: f64) -> bool;
+    pub fn set_parameter(&mut self, name: &str, value: f64) -> bool {
+        self.system.set_parameter(name, value)
+    }
+
     /// Whether all parameters have their default values.
-    fn has_default_parameters(&self) -> bool;
+    pub fn has_default_parameters(&self) -> bool {
+        self.system.parameters() == self.system.defaults()
+    }
+
     /// f(t, x) in a region.
-    fn vector_field(&self, region: usize, t: f64, x: &[f64]) -> Vec<f64>;
+    pub fn vector_field(&self, region: usize, t: f64, x: &[f64]) -> Vec<f64> {
+        self.system.vector_field(region, t, x)
+    }
+
     /// g(t, x) of an interface.
-    fn switching_function(&self, interface: usize, t: f64, x: &[f64]) -> f64;
+    pub fn switching_function(&self, interface: usize, t: f64, x: &[f64]) -> f64 {
+        self.system.switching_function(interface, t, x)
+    }
+
     /// Makes a run and tells `sink` of it.
     ///
     /// # Errors
     /// Whatever stops the integration.
-    fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error>;
+    pub fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error> {
+        let finish = self.system.integrate(run, &run.from(), sink)?;
+        Ok(finish.statistics)
+    }
+
     /// Makes a run that is not listened to, for its speed.
     ///
     /// # Errors
     /// Whatever stops the integration.
-    fn integrate_silently(&self, run: &Run) -> Result<Finish, Error>;
+    pub fn integrate_silently(&self, run: &Run) -> Result<Finish, Error> {
+        self.system.integrate_silently(run, &run.from())
+    }
+
     /// Makes the run from many starts instead of its own, and tells `sink` of each in order.
-    fn integrate_all(
+    pub fn integrate_all(
         &self,
         run: &Run,
         parallelism: Parallelism,
         starts: &mut dyn Iterator<Item = Start>,
         sink: &mut dyn FnMut(MemberOutcome) -> ControlFlow<()>,
-    );
-    /// A copy.
-    fn duplicate(&self) -> Box<dyn Problem>;
+    ) {
+        let t_end = run.t_end;
+        self.system
+            .integrate_all(run, t_end, parallelism, starts, sink);
+    }
 
     /// The run of the problem's description.
-    fn default_run(&self) -> Run {
+    pub fn default_run(&self) -> Run {
         let description = self.description();
         Run {
-            method: MethodName::Symmetric,
+            method: self.method,
             step_size: description.step_size,
             tolerance: DEFAULT_TOLERANCE,
             level_correction: true,
@@ -283,7 +252,7 @@ pub trait Problem: Send + Sync {
     }
 
     /// Whether a run from `initial` is the one that the reference solution is of.
-    fn is_reference_run(&self, initial: &[f64]) -> bool {
+    pub fn is_reference_run(&self, initial: &[f64]) -> bool {
         self.description().reference.is_some()
             && self.has_default_parameters()
             && initial == self.description().initial

@@ -157,7 +157,7 @@ impl Reference {
     ///
     /// # Errors
     /// [`ReferenceError`] if it is malformed.
-    pub fn of(problem: &dyn Problem) -> Result<Option<Self>, ReferenceError> {
+    pub fn of(problem: &Problem) -> Result<Option<Self>, ReferenceError> {
         problem.description().reference.map(Self::parse).transpose()
     }
 

@@ -1,55 +1,140 @@
 //! All problems, and finding one by name.
 
-use crate::entry::Entry;
-use crate::problem::Problem;
+use dmm_runtime::dynamic::Erased;
+use dmm_runtime::{Model, System};
+
+use crate::problem::{AnySystem, Description, Problem};
 use crate::systems::*;
 
+/// A problem that can be made.
+struct Entry {
+    description: &'static Description,
+    /// Its system, compiled at run time from the declaration.
+    tape: fn() -> Box<AnySystem>,
+    /// Its system, compiled with the program.
+    compiled: Option<fn() -> Box<AnySystem>>,
+}
+
+/// The system of a declaration, compiled at run time.
+fn tape(declaration: &str) -> Result<Box<AnySystem>, String> {
+    let model = Model::compile(declaration).map_err(|error| error.to_string())?;
+    model.into_any().map_err(|error| error.to_string())
+}
+
+macro_rules! entries {
+    ($($system:ident $states:literal $module:ident $compiled:expr;)*) => {
+        &[$(Entry {
+            description: &$module::DESCRIPTION,
+            tape: || declared(&$system::default()),
+            compiled: $compiled,
+        }),*]
+    };
+}
+
+/// A system that the program has compiled.
+macro_rules! compiled {
+    ($system:ident $states:literal) => {
+        Some(|| Erased::<$system, $states>::boxed($system::default()))
+    };
+}
+
+/// A system that is compiled with the feature `compiled` alone, for comparisons of generated code.
+#[cfg(feature = "compiled")]
+macro_rules! seldom {
+    ($system:ident $states:literal) => {
+        compiled!($system $states)
+    };
+}
+#[cfg(not(feature = "compiled"))]
+macro_rules! seldom {
+    ($system:ident $states:literal) => {
+        None
+    };
+}
+
 /// Every problem, the piecewise-smooth ones first.
-pub fn all() -> Vec<Box<dyn Problem>> {
-    vec![
-        Entry::<Harmonic, 2>::boxed(&harmonic::DESCRIPTION),
-        Entry::<Elliptic, 2>::boxed(&elliptic::DESCRIPTION),
-        Entry::<Pendulum, 2>::boxed(&pendulum::DESCRIPTION),
-        Entry::<LotkaVolterra, 2>::boxed(&lotka_volterra_periodic::DESCRIPTION),
-        Entry::<Damped, 2>::boxed(&damped::DESCRIPTION),
-        Entry::<Spiral, 2>::boxed(&spiral::DESCRIPTION),
-        Entry::<RigidBody, 3>::boxed(&rigid_body::DESCRIPTION),
-        Entry::<KeplerRefraction, 4>::boxed(&kepler_refraction::DESCRIPTION),
-        Entry::<SaturatingInductor, 2>::boxed(&saturating_inductor::DESCRIPTION),
-        Entry::<FoodChain, 3>::boxed(&food_chain::DESCRIPTION),
-        Entry::<FputChain, 16>::boxed(&fput_chain::DESCRIPTION),
-        Entry::<FputChain32, 64>::boxed(&fput_chain_32::DESCRIPTION),
-        Entry::<TodaChain, 16>::boxed(&toda_chain::DESCRIPTION),
-        Entry::<TodaChain32, 64>::boxed(&toda_chain_32::DESCRIPTION),
-        Entry::<Toda, 6>::boxed(&toda::DESCRIPTION),
-        Entry::<RelativisticOscillator, 2>::boxed(&relativistic_oscillator::DESCRIPTION),
-        Entry::<HenonHeiles, 4>::boxed(&henon_heiles::DESCRIPTION),
-        Entry::<PoschlTeller, 2>::boxed(&poschl_teller::DESCRIPTION),
-        Entry::<SaturatingSpring, 2>::boxed(&saturating_spring::DESCRIPTION),
-        Entry::<DoublePendulum, 4>::boxed(&double_pendulum::DESCRIPTION),
-        Entry::<ThreeBody, 12>::boxed(&three_body::DESCRIPTION),
-    ]
+const ENTRIES: &[Entry] = entries! {
+    Harmonic 2 harmonic compiled!(Harmonic 2);
+    Elliptic 2 elliptic compiled!(Elliptic 2);
+    Pendulum 2 pendulum seldom!(Pendulum 2);
+    LotkaVolterra 2 lotka_volterra_periodic seldom!(LotkaVolterra 2);
+    Damped 2 damped seldom!(Damped 2);
+    Spiral 2 spiral seldom!(Spiral 2);
+    RigidBody 3 rigid_body seldom!(RigidBody 3);
+    KeplerRefraction 4 kepler_refraction seldom!(KeplerRefraction 4);
+    SaturatingInductor 2 saturating_inductor seldom!(SaturatingInductor 2);
+    FoodChain 3 food_chain seldom!(FoodChain 3);
+    FputChain 16 fput_chain seldom!(FputChain 16);
+    FputChain32 64 fput_chain_32 seldom!(FputChain32 64);
+    TodaChain 16 toda_chain seldom!(TodaChain 16);
+    TodaChain32 64 toda_chain_32 seldom!(TodaChain32 64);
+    Toda 6 toda seldom!(Toda 6);
+    RelativisticOscillator 2 relativistic_oscillator seldom!(RelativisticOscillator 2);
+    HenonHeiles 4 henon_heiles seldom!(HenonHeiles 4);
+    PoschlTeller 2 poschl_teller seldom!(PoschlTeller 2);
+    SaturatingSpring 2 saturating_spring seldom!(SaturatingSpring 2);
+    DoublePendulum 4 double_pendulum seldom!(DoublePendulum 4);
+    ThreeBody 12 three_body seldom!(ThreeBody 12);
+};
+
+impl Entry {
+    /// The problem, of the system that was compiled with the program if there is one.
+    fn problem(&self) -> Problem {
+        let system = self.compiled.unwrap_or(self.tape);
+        Problem::new(*self.description, system())
+    }
+}
+
+/// The problem of a system, which is compiled at run time from its declaration.
+pub(crate) fn of<Sys: System<N>, const N: usize>(
+    description: Description,
+    system: &Sys,
+) -> Problem {
+    Problem::new(description, declared(system))
+}
+
+/// A system compiled at run time from its declaration.
+fn declared<Sys: System<N>, const N: usize>(system: &Sys) -> Box<AnySystem> {
+    tape(system.declaration())
+        .unwrap_or_else(|message| unreachable!("`pws!` has compiled the same: {message}"))
+}
+
+/// Every problem, the piecewise-smooth ones first.
+pub fn all() -> Vec<Problem> {
+    ENTRIES.iter().map(Entry::problem).collect()
+}
+
+/// The names of all problems.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    ENTRIES.iter().map(|entry| entry.description.name)
 }
 
 /// The problem of that name; `-` and `_` are the same, and so are capitals and small letters.
 ///
 /// # Errors
 /// [`Unknown`], with the closest name.
-pub fn find(name: &str) -> Result<Box<dyn Problem>, Unknown> {
+pub fn find(name: &str) -> Result<Problem, Unknown> {
+    Ok(entry(name)?.problem())
+}
+
+/// The same with a system that is compiled at run time, whether the program has it or not.
+///
+/// # Errors
+/// [`Unknown`], with the closest name.
+pub fn find_tape(name: &str) -> Result<Problem, Unknown> {
+    let entry = entry(name)?;
+    Ok(Problem::new(*entry.description, (entry.tape)()))
+}
+
+fn entry(name: &str) -> Result<&'static Entry, Unknown> {
     let wanted = name.to_lowercase().replace('-', "_");
-    let problems = all();
-    let closest = closest(
-        &wanted,
-        problems.iter().map(|problem| problem.description().name),
-    );
-    problems
-        .into_iter()
-        .find(|problem| problem.description().name == wanted)
-        .ok_or_else(|| Unknown {
-            kind: "problem",
-            name: name.to_owned(),
-            closest,
-        })
+    let mut entries = ENTRIES.iter();
+    let found = entries.find(|entry| entry.description.name == wanted);
+    found.ok_or_else(|| Unknown {
+        kind: "problem",
+        name: name.to_owned(),
+        closest: closest(&wanted, names()),
+    })
 }
 
 /// A name that does not exist.
@@ -108,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn cards_fit_their_systems() {
+    fn descriptions_fit_their_systems() {
         for problem in all() {
             let description = problem.description();
             assert_eq!(

@@ -52,7 +52,7 @@ impl Truth {
     /// # Errors
     /// [`TruthError`] if it cannot be computed.
     pub fn of(
-        problem: &dyn Problem,
+        problem: &Problem,
         initial: &[f64],
         count: usize,
         t_end: f64,
@@ -71,7 +71,7 @@ impl Truth {
     }
 
     fn from_reference(
-        problem: &dyn Problem,
+        problem: &Problem,
         initial: &[f64],
         reference: &Reference,
         count: usize,
@@ -103,7 +103,7 @@ impl Truth {
     /// [`TruthError`] if it cannot be computed.
     pub fn state(
         &self,
-        problem: &dyn Problem,
+        problem: &Problem,
         transitions: usize,
         t: f64,
     ) -> Result<Vec<f64>, TruthError> {

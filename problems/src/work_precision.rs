@@ -85,7 +85,7 @@ impl Goal {
     ///
     /// # Errors
     /// [`GoalError`] if it cannot be computed.
-    pub fn of(problem: &dyn Problem, t: Option<f64>) -> Result<Self, GoalError> {
+    pub fn of(problem: &Problem, t: Option<f64>) -> Result<Self, GoalError> {
         let reference = Reference::of(problem).map_err(TruthError::from)?;
         let samples = reference.map_or_else(Vec::new, |reference| reference.samples);
         let wanted = samples.into_iter().rev().find(|sample| match t {
@@ -119,7 +119,7 @@ impl Goal {
     /// is told after each round.
     pub fn measure(
         &self,
-        problem: &dyn Problem,
+        problem: &Problem,
         methods: &[MethodName],
         rounds: u32,
         mut progress: impl FnMut(),
@@ -143,7 +143,7 @@ impl Goal {
         settings
     }
 
-    fn run(&self, problem: &dyn Problem, method: MethodName, control: f64) -> Run {
+    fn run(&self, problem: &Problem, method: MethodName, control: f64) -> Run {
         Run {
             method,
             step_size: control,
@@ -155,7 +155,7 @@ impl Goal {
 
     /// The settings of a scheme, from the coarsest until the error is rounding or a run takes
     /// too long.
-    fn ladder(&self, problem: &dyn Problem, method: MethodName) -> Vec<Setting> {
+    fn ladder(&self, problem: &Problem, method: MethodName) -> Vec<Setting> {
         let mut settings = Vec::new();
         let (mut control, factor, least) = match method.control() {
             Control::StepSize { .. } => (LARGEST_STEP, 0.5, 0.0),
@@ -191,7 +191,7 @@ impl Goal {
 }
 
 /// Seconds of a run.
-fn turn(problem: &dyn Problem, run: &Run) -> Result<f64, Error> {
+fn turn(problem: &Problem, run: &Run) -> Result<f64, Error> {
     let start = ThreadTime::now();
     let mut runs = 0;
     while runs == 0 || start.elapsed() < SHORTEST_TURN {
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn references_end_where_they_have_a_sample() {
-        let goal = |name, t| Goal::of(&*registry::find(name).unwrap(), t).unwrap();
+        let goal = |name, t| Goal::of(&registry::find(name).unwrap(), t).unwrap();
         assert_eq!(goal("harmonic", None).t, 100.0);
         assert_eq!(goal("kepler_refraction", None).t, 50.0);
         let long = goal("elliptic", Some(1e4));
@@ -228,15 +228,15 @@ mod tests {
         assert_eq!((between.t, between.origin), (9.0, Origin::Accurate));
         assert_eq!(goal("toda", None).origin, Origin::Accurate);
         let problem = registry::find("toda").unwrap();
-        assert!(Goal::of(&*problem, Some(-1.0)).is_err());
+        assert!(Goal::of(&problem, Some(-1.0)).is_err());
     }
 
     #[test]
     fn finer_settings_have_smaller_errors() {
         let problem = registry::find("harmonic").unwrap();
-        let goal = Goal::of(&*problem, Some(5.0)).unwrap();
+        let goal = Goal::of(&problem, Some(5.0)).unwrap();
         let settings = goal.measure(
-            &*problem,
+            &problem,
             &[MethodName::Symmetric, MethodName::Taylor],
             2,
             || (),

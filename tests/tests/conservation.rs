@@ -22,7 +22,7 @@ fn conservation(name: &str, level_correction: bool, step_size: f64) -> Conservat
             ..=16 => STEPS,
             _ => STEPS_OF_LARGE,
         };
-    measure(problem.as_ref(), &run, &mut |_| {}).unwrap()
+    measure(&problem, &run, &mut |_| {}).unwrap()
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn levels_are_kept_whatever_the_tolerance() {
             let mut run = problem.default_run();
             run.method = method;
             run.tolerance = tolerance;
-            let kept = measure(problem.as_ref(), &run, &mut |_| {}).unwrap();
+            let kept = measure(&problem, &run, &mut |_| {}).unwrap();
             // the truncation error of a step is taken off whole, at every tolerance; what is left
             // are the roundings of the state and of evaluating ψ here and in the correction
             assert!(kept.ulps <= 4.0, "{name}, {tolerance:e}: {} ulp", kept.ulps);
@@ -97,7 +97,7 @@ fn explicit_midpoint_does_not_conserve() {
     run.method = MethodName::ExplicitMidpoint;
     run.step_size = 1e-3;
     run.t_end = 10.0;
-    let midpoint = measure(problem.as_ref(), &run, &mut |_| {}).unwrap();
+    let midpoint = measure(&problem, &run, &mut |_| {}).unwrap();
     assert!(midpoint.ulps > 1e6);
 }
 

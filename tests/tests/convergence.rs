@@ -38,7 +38,7 @@ fn studied(name: &str, method: MethodName, after: &[usize], step_sizes: Vec<f64>
             _ => problem.description().t_end,
         },
     };
-    let study = study(problem.as_ref(), &plan, || {}).unwrap();
+    let study = study(&problem, &plan, || {}).unwrap();
     assert!(study.stopped.is_empty(), "{:?}", study.stopped);
     study
 }

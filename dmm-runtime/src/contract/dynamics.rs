@@ -57,6 +57,13 @@ pub trait Dynamics<S: Scalar, const N: usize, const M: usize>: Clone {
         Self::AFFINE == Some(true)
     }
 
+    /// How many of the M quantities there are; dynamics that were compiled at run time may have
+    /// room for more.
+    #[inline(always)]
+    fn quantities(&self) -> usize {
+        M
+    }
+
     /// Whether ψ number `quantity` is an affine function of t and x: every Taylor and Runge–Kutta
     /// step conserves it to rounding without a correction.
     fn is_affine_quantity(&self, quantity: usize) -> bool;

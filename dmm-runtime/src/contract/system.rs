@@ -116,6 +116,7 @@ impl<const N: usize> DynamicsVisitor<N> for Conserved<'_, N> {
     type Output = Vec<f64>;
 
     fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> Vec<f64> {
-        dynamics.conserved(self.t, self.x).iter().copied().collect()
+        let psi = dynamics.conserved(self.t, self.x);
+        psi.iter().copied().take(dynamics.quantities()).collect()
     }
 }

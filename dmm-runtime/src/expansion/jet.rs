@@ -73,6 +73,13 @@ pub(crate) fn expand<S: Scalar, F, U: Unroll, const N: usize, const M: usize, co
         unit,
     };
     U::run::<0, P, 1, _>(&mut solution, end);
+    // a coefficient that is known an order before the others would be one of a polynomial of its own
+    // degree
+    if const { !U::EXACT } && end < P {
+        for component in &mut series.as_mut()[..N] {
+            component[end] = S::from_f64(0.0);
+        }
+    }
 }
 
 /// The series of the switching functions as they advance.

@@ -63,7 +63,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         let Ok(problem) = find(name) else {
             continue;
         };
-        let (row, growth) = measure(&*problem, &setting, steps / extent.of(1, 5000));
+        let (row, growth) = measure(&problem, &setting, steps / extent.of(1, 5000));
         observer.ended(row);
         let colour = COLOURS[k % COLOURS.len()];
         panel.curve(Some(what), growth.points(), Stroke::Marked, colour);
@@ -90,7 +90,7 @@ impl Sink for Meter {
     }
 }
 
-fn measure(problem: &dyn Problem, setting: &Setting, steps: u64) -> (Row, Growth) {
+fn measure(problem: &Problem, setting: &Setting, steps: u64) -> (Row, Growth) {
     let mut meter = Meter {
         growth: Growth::new(),
         steps: 0,

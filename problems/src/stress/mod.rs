@@ -201,7 +201,7 @@ impl Setting {
     }
 
     /// The default run of a problem at this setting.
-    fn run(&self, problem: &dyn Problem) -> Run {
+    fn run(&self, problem: &Problem) -> Run {
         Run {
             method: self.method,
             step_size: self.step_size,

@@ -4,9 +4,8 @@
 //! −q³ it moves s times as fast, and ψ is s⁴ times as large; below s = 10⁻⁷⁰ it would be lost to
 //! underflow.
 
-use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
+use super::systems::{circle, quartic};
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
-use crate::entry::Entry;
 use crate::picture::Panel;
 use crate::problem::{OutputTimes, Problem, Run, Sink};
 use dmm_runtime::Error;
@@ -19,19 +18,19 @@ const T_END: f64 = 20.0;
 /// A problem, the power of the scale that the rate of its motion goes with, and the decades
 /// over which it is scaled.
 struct Case {
-    problem: fn() -> Box<dyn Problem>,
+    problem: fn() -> Problem,
     speed: i32,
     decades: (i32, i32),
 }
 
 const CASES: [Case; 2] = [
     Case {
-        problem: || Entry::<Circle, 2>::boxed(&CIRCLE),
+        problem: circle,
         speed: 0,
         decades: (-150, 150),
     },
     Case {
-        problem: || Entry::<Quartic, 2>::boxed(&QUARTIC),
+        problem: quartic,
         speed: 1,
         decades: (-70, 150),
     },
@@ -120,7 +119,7 @@ fn scaled(case: &Case, setting: &Setting, decade: i32) -> Result<Vec<f64>, Error
         initial: vec![q * scale, p * scale * faster],
         t_end,
         output_times: OutputTimes::At(vec![t_end]),
-        ..setting.run(&*problem)
+        ..setting.run(&problem)
     };
     let mut last = Last(vec![f64::NAN; 2]);
     problem.integrate(&run, &mut last)?;

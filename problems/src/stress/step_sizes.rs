@@ -57,9 +57,9 @@ fn run(name: &str, setting: &Setting, tau: f64, steps: f64) -> Option<Result<Con
     let run = Run {
         step_size: tau,
         t_end: tau * steps,
-        ..setting.run(&*problem)
+        ..setting.run(&problem)
     };
-    Some(measure(&*problem, &run, &mut |_| {}))
+    Some(measure(&problem, &run, &mut |_| {}))
 }
 
 /// One row for all step sizes of a problem.

@@ -104,7 +104,7 @@ fn error(setting: &Setting, ratio: f64, pairs: u32) -> Result<f64, String> {
         initial: vec![1.0, 1.0],
         // half way to the next crossing
         t_end: last + 0.5 * PI,
-        ..setting.run(&*problem)
+        ..setting.run(&problem)
     };
     let mut crossings = Crossings::default();
     problem

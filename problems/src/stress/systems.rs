@@ -2,7 +2,8 @@
 
 use dmm_runtime::pws;
 
-use crate::problem::Description;
+use crate::problem::{Description, Problem};
+use crate::registry;
 
 pws! {
     /// A particle on a circle in phase space that touches a wall, which changes nothing.
@@ -80,14 +81,27 @@ const fn description(
 }
 
 /// The description of [`Circle`].
-pub(super) const CIRCLE: Description =
-    description("circle", "a circle that touches a wall", &[-1.0, 0.1]);
+const CIRCLE: Description = description("circle", "a circle that touches a wall", &[-1.0, 0.1]);
 /// The description of [`Quartic`].
-pub(super) const QUARTIC: Description =
-    description("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
+const QUARTIC: Description = description("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
 /// The description of [`Warped`].
-pub(super) const WARPED: Description = description(
+const WARPED: Description = description(
     "warped",
     "a star bound more on one side of an axis",
     &[0.05, 0.1, 0.44, 0.05],
 );
+
+/// [`Circle`]
+pub(super) fn circle() -> Problem {
+    registry::of(CIRCLE, &Circle::default())
+}
+
+/// [`Quartic`]
+pub(super) fn quartic() -> Problem {
+    registry::of(QUARTIC, &Quartic::default())
+}
+
+/// [`Warped`]
+pub(super) fn warped() -> Problem {
+    registry::of(WARPED, &Warped::default())
+}

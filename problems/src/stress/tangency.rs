@@ -11,9 +11,8 @@ use std::ops::ControlFlow;
 use dmm_runtime::{Error, ErrorKind};
 use num_rational::BigRational;
 
-use super::systems::{CIRCLE, Circle, QUARTIC, Quartic};
+use super::systems::{circle, quartic};
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
-use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Run, Sink};
 
@@ -22,7 +21,7 @@ const STEPS: f64 = 200.0;
 
 /// A kind of orbit.
 struct Kind {
-    problem: fn() -> Box<dyn Problem>,
+    problem: fn() -> Problem,
     /// The conserved quantity as a function of q and p, times a constant.
     level: fn(&BigRational, &BigRational) -> BigRational,
     /// q at the apex of the orbit from (−1, α).
@@ -33,13 +32,13 @@ struct Kind {
 
 const KINDS: [Kind; 2] = [
     Kind {
-        problem: || Entry::<Circle, 2>::boxed(&CIRCLE),
+        problem: circle,
         level: |q, p| q * q + p * p,
         apex: |alpha| (1.0 + alpha * alpha).sqrt(),
         after: 5.0,
     },
     Kind {
-        problem: || Entry::<Quartic, 2>::boxed(&QUARTIC),
+        problem: quartic,
         level: |q, p| q * q * q * q + p * p + p * p,
         apex: |alpha| (1.0 + 2.0 * alpha * alpha).sqrt().sqrt(),
         after: 6.0,
@@ -139,7 +138,7 @@ impl Tally {
             step_size: std::f64::consts::PI / STEPS,
             initial: vec![-1.0, alpha],
             t_end: kind.after,
-            ..setting.run(&*problem)
+            ..setting.run(&problem)
         };
         let mut count = Count::default();
         let result = problem.integrate(&run, &mut count);

@@ -11,9 +11,8 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use super::growth::Growth;
-use super::systems::{WARPED, Warped};
+use super::systems::warped;
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
-use crate::entry::Entry;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{Crossed, Problem, Record, Run, Sink};
 use crate::reference::Reference;
@@ -32,7 +31,7 @@ const PINNED: f64 = 1e-28;
 pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let transitions = extent.of(1_000_000, 500);
     let mut panels = Vec::new();
-    let problems: [(&str, Box<dyn Problem>); 2] = [
+    let problems: [(&str, Problem); 2] = [
         (
             "closed orbit",
             match find("elliptic") {
@@ -40,7 +39,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
                 Err(_) => return panels,
             },
         ),
-        ("open orbit", Entry::<Warped, 4>::boxed(&WARPED)),
+        ("open orbit", warped()),
     ];
     for (kind, problem) in problems {
         let mut panel = Panel::new(
@@ -50,7 +49,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         );
         for (k, setting) in SETTINGS.into_iter().enumerate() {
             observer.begins(&format!("{}, {}", problem.description().name, setting.name));
-            let (row, growth) = measure(&*problem, &setting, transitions);
+            let (row, growth) = measure(&problem, &setting, transitions);
             observer.ended(row);
             let label = Some(setting.name.to_owned());
             panel.curve(
@@ -100,7 +99,7 @@ impl Sink for Levels {
     }
 }
 
-fn measure(problem: &dyn Problem, setting: &Setting, transitions: u64) -> (Row, Growth) {
+fn measure(problem: &Problem, setting: &Setting, transitions: u64) -> (Row, Growth) {
     let mut levels = Levels {
         exact: exact(problem),
         growth: Growth::new(),
@@ -128,7 +127,7 @@ fn measure(problem: &dyn Problem, setting: &Setting, transitions: u64) -> (Row, 
 }
 
 /// The exact level of each region: of the reference, or that of the start for all.
-fn exact(problem: &dyn Problem) -> Vec<f64> {
+fn exact(problem: &Problem) -> Vec<f64> {
     let regions = problem.regions().len();
     let mut levels = vec![f64::NAN; regions];
     if let Ok(Some(reference)) = Reference::of(problem) {

@@ -44,7 +44,7 @@ impl Sink for Collector {
     }
 }
 
-fn solve(problem: &dyn Problem, method: MethodName, control: f64, times: &[f64]) -> Collector {
+fn solve(problem: &Problem, method: MethodName, control: f64, times: &[f64]) -> Collector {
     let run = Run {
         method,
         step_size: control,
@@ -86,7 +86,7 @@ struct Exact {
 
 /// As many crossings, into the same regions, their times and the states with errors of second
 /// order.
-fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
+fn assert_follows(problem: &Problem, step_size: f64, exact: &Exact) {
     let name = problem.description().name;
     let times: Vec<f64> = exact.samples.iter().map(|(t, _)| *t).collect();
     let coarse = solve(problem, MethodName::Symmetric, step_size, &times);
@@ -114,7 +114,7 @@ fn assert_follows(problem: &dyn Problem, step_size: f64, exact: &Exact) {
 /// As many crossings, into the same regions, their times and the states with errors of about
 /// the tolerance of a method.
 fn assert_reaches(
-    problem: &dyn Problem,
+    problem: &Problem,
     (method, tolerance): (MethodName, f64),
     times: &[f64],
     exact: &Exact,
@@ -147,7 +147,7 @@ fn assert_reaches(
 /// A piecewise-smooth system against its reference data.
 fn against_reference(name: &str, step_size: f64) {
     let problem = registry::find(name).unwrap();
-    let reference = Reference::of(&*problem).unwrap().unwrap();
+    let reference = Reference::of(&problem).unwrap().unwrap();
     let samples = reference.samples.iter();
     let samples: Vec<_> = samples.filter(|sample| sample.t <= T_END).collect();
     let crossings = reference.crossings.iter();
@@ -161,7 +161,7 @@ fn against_reference(name: &str, step_size: f64) {
             .map(|sample| (sample.t, sample.x.to_vec()))
             .collect(),
     };
-    assert_follows(&*problem, step_size, &exact);
+    assert_follows(&problem, step_size, &exact);
 }
 
 /// A system against an independent method of high order, at a tenth, a fifth, a half and the
@@ -169,12 +169,12 @@ fn against_reference(name: &str, step_size: f64) {
 fn against_accurate(name: &str, step_size: f64, t_end: f64) {
     let problem = registry::find(name).unwrap();
     let initial = problem.description().initial;
-    let nodes = accurate::crossings(&*problem, initial, t_end, usize::MAX).unwrap();
+    let nodes = accurate::crossings(&problem, initial, t_end, usize::MAX).unwrap();
     // a piecewise-smooth system that never crosses would test nothing of it
     assert_eq!(nodes.len() > 1, !problem.interfaces().is_empty(), "{name}");
     let state_at = |t: f64| {
         let before = nodes.partition_point(|node| node.t <= t);
-        accurate::state_at(&*problem, &nodes[before - 1], t).unwrap()
+        accurate::state_at(&problem, &nodes[before - 1], t).unwrap()
     };
     let exact = Exact {
         count: nodes.len() - 1,
@@ -186,7 +186,7 @@ fn against_accurate(name: &str, step_size: f64, t_end: f64) {
             .map(|part| (part * t_end, state_at(part * t_end)))
             .into(),
     };
-    assert_follows(&*problem, step_size, &exact);
+    assert_follows(&problem, step_size, &exact);
 }
 
 /// A test for each problem, named like it, and one that none is missing.

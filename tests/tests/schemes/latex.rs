@@ -11,7 +11,7 @@ fn fragments() -> Vec<(&'static str, String)> {
     registry::all()
         .iter()
         .map(|problem| {
-            let scheme = dmm_compiler::read(declaration(&**problem)).expect("a problem compiles");
+            let scheme = dmm_compiler::read(declaration(problem)).expect("a problem compiles");
             (problem.description().name, emit::latex(&scheme))
         })
         .collect()

@@ -7,7 +7,7 @@ use dmm_problems::problem::Problem;
 use dmm_problems::registry;
 use proc_macro2::TokenStream;
 
-fn declaration(problem: &dyn Problem) -> TokenStream {
+fn declaration(problem: &Problem) -> TokenStream {
     problem
         .declaration()
         .parse()
@@ -17,7 +17,7 @@ fn declaration(problem: &dyn Problem) -> TokenStream {
 #[test]
 fn a_declaration_printed_says_the_same() {
     for problem in registry::all() {
-        let again = dmm_compiler::explain(declaration(&*problem));
+        let again = dmm_compiler::explain(declaration(&problem));
         assert_eq!(again.as_deref(), Ok(problem.listing()));
     }
 }

@@ -18,7 +18,7 @@ use crate::progress;
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Names of the problems [default: all with a reference solution].
+    /// Names of the problems, or files that declare systems [default: all with a reference solution].
     problems: Vec<String>,
     /// Time at which states are compared [default: 100, or the reference's last sample before
     /// it; 10 without a reference].
@@ -47,7 +47,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let problems = problems(arguments)?;
     let goals = problems
         .iter()
-        .map(|problem| Goal::of(&**problem, arguments.end).map_err(Failure::from))
+        .map(|problem| Goal::of(problem, arguments.end).map_err(Failure::from))
         .collect::<Result<Vec<_>, _>>()?;
     output::directory(&arguments.out)?;
     let mut csv = Csv::create(arguments.out.join("work_precision.csv"), HEADER)?;
@@ -56,10 +56,10 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let rounds = u64::from(arguments.rounds) * problems.len() as u64;
     let bar = progress::bar(rounds, WORK);
     for (problem, goal) in problems.iter().zip(&goals) {
-        let settings = measure(&**problem, goal, arguments.rounds, &bar);
-        write(&mut csv, &**problem, goal, &settings)?;
-        add(&mut table, &**problem, goal, &settings);
-        panels.push(panel(&**problem, goal, &settings));
+        let settings = measure(problem, goal, arguments.rounds, &bar);
+        write(&mut csv, problem, goal, &settings)?;
+        add(&mut table, problem, goal, &settings);
+        panels.push(panel(problem, goal, &settings));
     }
     bar.finish_and_clear();
     table.print()?;
@@ -74,7 +74,7 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-fn problems(arguments: &Arguments) -> Result<Vec<Box<dyn Problem>>, Failure> {
+fn problems(arguments: &Arguments) -> Result<Vec<Problem>, Failure> {
     if arguments.problems.is_empty() {
         let mut all = registry::all();
         all.retain(|problem| problem.description().reference.is_some());
@@ -84,7 +84,7 @@ fn problems(arguments: &Arguments) -> Result<Vec<Box<dyn Problem>>, Failure> {
     names.map(|name| input::problem(name, &[])).collect()
 }
 
-fn measure(problem: &dyn Problem, goal: &Goal, rounds: u32, bar: &ProgressBar) -> Vec<Setting> {
+fn measure(problem: &Problem, goal: &Goal, rounds: u32, bar: &ProgressBar) -> Vec<Setting> {
     let methods: Vec<MethodName> = MethodName::all().collect();
     bar.set_message(problem.description().name);
     goal.measure(problem, &methods, rounds, || bar.inc(1))
@@ -115,7 +115,7 @@ fn control(method: MethodName) -> &'static str {
 
 fn write(
     csv: &mut Csv,
-    problem: &dyn Problem,
+    problem: &Problem,
     goal: &Goal,
     settings: &[Setting],
 ) -> Result<(), Failure> {
@@ -146,7 +146,7 @@ fn header() -> Vec<String> {
 }
 
 /// A row a scheme.
-fn add(table: &mut Table, problem: &dyn Problem, goal: &Goal, settings: &[Setting]) {
+fn add(table: &mut Table, problem: &Problem, goal: &Goal, settings: &[Setting]) {
     for method in MethodName::all() {
         let name = format!("{}, t = {}", problem.description().name, short(goal.t));
         let cells = LEVELS.map(|level| match fastest(settings, method, level) {
@@ -179,7 +179,7 @@ fn label(method: MethodName) -> String {
     }
 }
 
-fn panel(problem: &dyn Problem, goal: &Goal, settings: &[Setting]) -> Panel {
+fn panel(problem: &Problem, goal: &Goal, settings: &[Setting]) -> Panel {
     let title = format!("{}, t = {}", problem.description().name, short(goal.t));
     let mut panel = Panel::new(
         title,

@@ -19,7 +19,7 @@ const DEFAULT_STEP_SIZE: f64 = 1e-3;
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Names of the problems [default: all].
+    /// Names of the problems, or files that declare systems [default: all].
     problems: Vec<String>,
     #[command(flatten)]
     scheme: SchemeOptions,
@@ -67,7 +67,7 @@ pub(crate) fn conserve(arguments: &Arguments) -> Result<(), Failure> {
     );
     let mut stopped = None;
     for problem in &problems {
-        let row = match row(&**problem, arguments) {
+        let row = match row(problem, arguments) {
             Ok(row) => row,
             Err(Failure::Stopped(reason)) => {
                 // the others go on
@@ -116,10 +116,7 @@ pub(crate) fn conserve(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// With and without the correction of the level.
-fn row(
-    problem: &dyn Problem,
-    arguments: &Arguments,
-) -> Result<(Conservation, Conservation), Failure> {
+fn row(problem: &Problem, arguments: &Arguments) -> Result<(Conservation, Conservation), Failure> {
     let run = arguments.scheme.applied(Run {
         step_size: DEFAULT_STEP_SIZE,
         ..problem.default_run()

@@ -18,7 +18,8 @@ use crate::scheme;
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Name of the problem (see `pws list`).
+    /// Name of the problem (see `pws list`), or a file that declares a system.
+    #[arg(value_name = "PROBLEM|FILE")]
     problem: String,
     /// The scheme, one of uniform steps.
     #[arg(long, default_value = "symmetric", value_parser = scheme::uniform_names())]
@@ -54,7 +55,7 @@ pub(crate) struct Arguments {
 /// Measures, prints the table, writes CSV and picture.
 pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &arguments.parameters)?;
-    let problem = &*problem;
+    let problem = &problem;
     let description = problem.description();
     let initial = input::initial(problem, arguments.initial.as_deref())?;
     let method = scheme::named(&arguments.scheme, false)?;
@@ -139,7 +140,7 @@ pub(crate) fn halved(step: f64, halvings: u32) -> Vec<f64> {
         .collect()
 }
 
-fn default_after(problem: &dyn Problem, initial: &[f64]) -> Result<Vec<usize>, Failure> {
+fn default_after(problem: &Problem, initial: &[f64]) -> Result<Vec<usize>, Failure> {
     if problem.interfaces().is_empty() {
         return Ok(vec![0]);
     }
@@ -155,7 +156,7 @@ fn default_after(problem: &dyn Problem, initial: &[f64]) -> Result<Vec<usize>, F
 
 /// The measured parts of the state of a row: each state, or of a large system the norm of
 /// each group of them.
-fn parts(problem: &dyn Problem, row: &Row) -> Vec<(String, Vec<f64>)> {
+fn parts(problem: &Problem, row: &Row) -> Vec<(String, Vec<f64>)> {
     let states = problem.states();
     if states.len() <= MOST_STATES {
         let components = row.components.iter().cloned();
@@ -172,7 +173,7 @@ fn parts(problem: &dyn Problem, row: &Row) -> Vec<(String, Vec<f64>)> {
 }
 
 /// The measured quantities of a study: transitions, name, errors.
-pub(crate) fn quantities(problem: &dyn Problem, study: &Study) -> Vec<(usize, String, Vec<f64>)> {
+pub(crate) fn quantities(problem: &Problem, study: &Study) -> Vec<(usize, String, Vec<f64>)> {
     let mut quantities = Vec::new();
     for row in &study.rows {
         if let Some(crossing) = &row.crossing {
@@ -187,7 +188,7 @@ pub(crate) fn quantities(problem: &dyn Problem, study: &Study) -> Vec<(usize, St
     quantities
 }
 
-fn write(path: &Path, problem: &dyn Problem, study: &Study) -> Result<PathBuf, Failure> {
+fn write(path: &Path, problem: &Problem, study: &Study) -> Result<PathBuf, Failure> {
     let mut csv = Csv::create(
         path.to_owned(),
         ["transitions", "quantity", "step_size", "error"],
@@ -205,7 +206,7 @@ fn write(path: &Path, problem: &dyn Problem, study: &Study) -> Result<PathBuf, F
     csv.finish()
 }
 
-fn print(problem: &dyn Problem, study: &Study) -> Result<(), Failure> {
+fn print(problem: &Problem, study: &Study) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -293,7 +294,7 @@ pub(crate) fn curve(study: &Study, errors: &[f64]) -> Vec<(f64, f64)> {
     step_sizes.zip(errors.iter().copied()).collect()
 }
 
-fn picture(problem: &dyn Problem, method: MethodName, study: &Study) -> Picture {
+fn picture(problem: &Problem, method: MethodName, study: &Study) -> Picture {
     let order = exponent(method);
     let mut panels = Vec::new();
     if study.rows.iter().any(|row| row.crossing.is_some()) {

@@ -23,7 +23,8 @@ use results::{Results, Waiting};
 /// What to integrate.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Name of the problem (see `pws list`).
+    /// Name of the problem (see `pws list`), or a file that declares a system.
+    #[arg(value_name = "PROBLEM|FILE")]
     problem: String,
     #[command(flatten)]
     scheme: SchemeOptions,
@@ -60,7 +61,7 @@ pub(crate) struct Arguments {
 /// Integrates, writes, summarises.
 pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &[])?;
-    let problem = &*problem;
+    let problem = &problem;
     let run = arguments.scheme.applied(problem.default_run())?;
     let known = MethodName::OF_ENSEMBLES;
     if !known.contains(&run.method) {
@@ -109,7 +110,7 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Integrates all members that are valid, and writes all.
 fn integrate(
-    problem: &dyn Problem,
+    problem: &Problem,
     run: &Run,
     parallelism: Parallelism,
     members: Members,
@@ -137,7 +138,7 @@ fn integrate(
 const ROUNDS: usize = 5;
 
 /// Trajectories per second in lanes and not, on one core and on all.
-fn bench(problem: &dyn Problem, run: &Run, members: Members) -> Result<(), Failure> {
+fn bench(problem: &Problem, run: &Run, members: Members) -> Result<(), Failure> {
     let starts: Vec<Start> = members.rows.flatten().collect();
     let parallelism = |threads, lanes| Parallelism { threads, lanes };
     let kinds = [

@@ -1,11 +1,15 @@
 //! Options that several commands share.
 
+use std::path::Path;
+
 use clap::ValueEnum;
 use dmm_problems::picture::Format;
 use dmm_problems::problem::Problem;
 use dmm_problems::registry::{self, Unknown};
+use dmm_runtime::Model;
 
 use crate::failure::Failure;
+use crate::file;
 use crate::output::grouped;
 
 /// How pictures are stored.
@@ -24,12 +28,25 @@ impl From<FormatOption> for Format {
     }
 }
 
-/// The problem of that name with `name=value` parameters set.
-pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Box<dyn Problem>, Failure> {
-    let mut problem = registry::find(name).map_err(|unknown| match unknown.closest {
-        Some(_) => Failure::from(unknown),
-        None => Failure::Request(format!("{unknown}; `pws list` names those there are")),
-    })?;
+/// The file that is meant: what is no problem's name and is there, or is written like a path.
+pub(crate) fn own_file(text: &str) -> Option<&Path> {
+    let path = Path::new(text);
+    let is_path = path.components().count() > 1 || path.extension().is_some();
+    (is_path || (registry::find(text).is_err() && path.is_file())).then_some(path)
+}
+
+/// The problem of that name, or the system that is declared in that file, with `name=value`
+/// parameters set.
+pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Problem, Failure> {
+    let mut problem = match own_file(name) {
+        Some(path) => own(path)?,
+        None => registry::find(name).map_err(|unknown| match unknown.closest {
+            Some(_) => Failure::from(unknown),
+            None => Failure::Request(format!(
+                "{unknown}; `pws list` names those there are, and a file may declare another"
+            )),
+        })?,
+    };
     let mut given = Vec::new();
     for assignment in parameters {
         let (name, value) = parse_assignment(assignment)?;
@@ -47,8 +64,22 @@ pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Box<dyn Probl
     Ok(problem)
 }
 
+/// The system that a file declares.
+fn own(path: &Path) -> Result<Problem, Failure> {
+    let model = Model::compile(&file::read(path)?).map_err(|error| {
+        let messages = error.messages();
+        for (line, column, text) in messages {
+            eprintln!("{}:{line}:{column}: {text}", path.display());
+        }
+        let count = error.messages().count();
+        let plural = if count == 1 { "" } else { "s" };
+        Failure::Request(format!("{count} error{plural} in {}", path.display()))
+    })?;
+    Problem::own(model).map_err(|error| Failure::Request(error.to_string()))
+}
+
 /// The initial state: that of the problem's description with `x=1,q[0]=2` set.
-pub(crate) fn initial(problem: &dyn Problem, given: Option<&str>) -> Result<Vec<f64>, Failure> {
+pub(crate) fn initial(problem: &Problem, given: Option<&str>) -> Result<Vec<f64>, Failure> {
     let mut initial = problem.description().initial.to_vec();
     let assignments = given.into_iter().flat_map(|text| text.split(','));
     let mut given = Vec::new();
@@ -66,7 +97,7 @@ pub(crate) fn initial(problem: &dyn Problem, given: Option<&str>) -> Result<Vec<
 }
 
 /// The index of a state.
-pub(crate) fn state(problem: &dyn Problem, name: &str) -> Result<usize, Failure> {
+pub(crate) fn state(problem: &Problem, name: &str) -> Result<usize, Failure> {
     let states = problem.states();
     let found = states.iter().position(|state| *state == name);
     found.ok_or_else(|| unknown("state", name, states.iter().copied()))

@@ -10,6 +10,7 @@ mod converge;
 mod ensemble;
 mod explain;
 mod failure;
+mod file;
 mod input;
 mod invariants;
 mod list;

@@ -14,7 +14,7 @@ pub(crate) struct Kept {
 /// The trajectory in the plane of two states, each region in its colour, with the interface
 /// where it is a curve in that plane.
 pub(crate) fn phase(
-    problem: &dyn Problem,
+    problem: &Problem,
     points: &[Kept],
     plane: (usize, usize),
     title: &str,
@@ -24,7 +24,7 @@ pub(crate) fn phase(
 
 /// Several trajectories in one panel.
 pub(crate) fn phases(
-    problem: &dyn Problem,
+    problem: &Problem,
     trajectories: &[impl AsRef<[Kept]>],
     (horizontal, vertical): (usize, usize),
     title: &str,
@@ -61,7 +61,7 @@ fn split_by_region(points: &[Kept]) -> impl Iterator<Item = &[Kept]> {
 const MARGIN: f64 = 0.1;
 
 /// Adds the zero set of each switching function at t = 0, for a system of two states.
-fn interfaces(problem: &dyn Problem, panel: &mut Panel, in_order: bool) {
+fn interfaces(problem: &Problem, panel: &mut Panel, in_order: bool) {
     let all = || panel.curves.iter().flat_map(|curve| &curve.points);
     let bounds = |value: fn(&(f64, f64)) -> f64| {
         let low = all().map(value).fold(f64::INFINITY, f64::min);
@@ -116,7 +116,7 @@ fn zero_set(g: impl Fn(f64, f64) -> f64, xs: (f64, f64), ys: (f64, f64)) -> Vec<
 const MOST_LABELS: usize = 12;
 
 /// Every state against time.
-pub(crate) fn time_series(problem: &dyn Problem, points: &[Kept], title: &str) -> Panel {
+pub(crate) fn time_series(problem: &Problem, points: &[Kept], title: &str) -> Panel {
     let label = match problem.states() {
         [one] => (*one).to_owned(),
         _ => "states".to_owned(),

@@ -20,7 +20,8 @@ use recorder::{Finished, Recorder};
 /// What to integrate.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Name of the problem (see `pws list`).
+    /// Name of the problem (see `pws list`), or a file that declares a system.
+    #[arg(value_name = "PROBLEM|FILE")]
     problem: String,
     #[command(flatten)]
     scheme: SchemeOptions,
@@ -54,7 +55,7 @@ pub(crate) struct Arguments {
 /// Integrates, writes, summarises.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let problem = input::problem(&arguments.problem, &arguments.parameters)?;
-    let problem = &*problem;
+    let problem = &problem;
     let run = arguments.scheme.applied(problem.default_run())?;
     let run = Run {
         initial: input::initial(problem, arguments.initial.as_deref())?,
@@ -81,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Refuses what the runtime would refuse, before any file is touched.
-fn check(problem: &dyn Problem, run: &Run) -> Result<(), Failure> {
+fn check(problem: &Problem, run: &Run) -> Result<(), Failure> {
     let start = Run {
         t_end: 0.0,
         ..run.clone()
@@ -96,7 +97,7 @@ fn check(problem: &dyn Problem, run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-fn plane(problem: &dyn Problem, given: Option<&str>) -> Result<(usize, usize), Failure> {
+fn plane(problem: &Problem, given: Option<&str>) -> Result<(usize, usize), Failure> {
     let Some(text) = given else {
         return Ok((0, 1.min(problem.states().len() - 1)));
     };
@@ -110,7 +111,7 @@ fn plane(problem: &dyn Problem, given: Option<&str>) -> Result<(usize, usize), F
 }
 
 fn pictures(
-    problem: &dyn Problem,
+    problem: &Problem,
     finished: &Finished,
     plane: (usize, usize),
     out: &Path,
@@ -147,7 +148,7 @@ const LARGEST_TIMED: f64 = 1e6;
 const LEAST_TIMED: Duration = Duration::from_millis(20);
 
 fn summarise(
-    problem: &dyn Problem,
+    problem: &Problem,
     run: &Run,
     finished: &Finished,
     statistics: Option<&Statistics>,

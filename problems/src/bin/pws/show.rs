@@ -1,17 +1,15 @@
 //! `pws show PROBLEM`, `pws show FILE`
 
-mod file;
-
 use std::io::Write;
 use std::path::Path;
 
 use dmm_compiler::emit;
 use dmm_compiler::scheme::Scheme;
 use dmm_problems::problem::Problem;
-use dmm_problems::registry;
 use proc_macro2::TokenStream;
 
 use crate::failure::Failure;
+use crate::file;
 use crate::input;
 use crate::invariants;
 use crate::output;
@@ -38,35 +36,28 @@ pub(crate) fn show(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(degree) = arguments.find_invariants {
         return find_invariants(arguments, degree);
     }
-    match own_file(&arguments.problem) {
+    match input::own_file(&arguments.problem) {
         Some(path) => show_file(path, arguments),
-        None => show_problem(&*input::problem(&arguments.problem, &[])?, arguments),
+        None => show_problem(&input::problem(&arguments.problem, &[])?, arguments),
     }
 }
 
 /// Prints the invariants of what is declared in a file or of a problem.
 fn find_invariants(arguments: &Arguments, degree: u32) -> Result<(), Failure> {
-    match own_file(&arguments.problem) {
+    match input::own_file(&arguments.problem) {
         Some(path) => {
             let declarations = file::declarations(path)?;
             invariants::print(declarations, degree, |wrong| file::report(path, wrong))
         }
         None => {
             let problem = input::problem(&arguments.problem, &[])?;
-            let declaration = tokens(&*problem)?;
+            let declaration = tokens(&problem)?;
             invariants::print(vec![declaration], degree, |wrong| {
                 let messages = wrong.iter().flat_map(|one| one.messages());
-                unreadable(&*problem, &messages.collect::<Vec<_>>().join("; "))
+                unreadable(&problem, &messages.collect::<Vec<_>>().join("; "))
             })
         }
     }
-}
-
-/// The file that is meant: what is no problem's name and is there, or is written like a path.
-fn own_file(text: &str) -> Option<&Path> {
-    let path = Path::new(text);
-    let is_path = path.components().count() > 1 || path.extension().is_some();
-    (is_path || (registry::find(text).is_err() && path.is_file())).then_some(path)
 }
 
 fn show_file(path: &Path, arguments: &Arguments) -> Result<(), Failure> {
@@ -96,7 +87,7 @@ fn listing(scheme: &Scheme, arguments: &Arguments) -> String {
     }
 }
 
-fn show_problem(problem: &dyn Problem, arguments: &Arguments) -> Result<(), Failure> {
+fn show_problem(problem: &Problem, arguments: &Arguments) -> Result<(), Failure> {
     if arguments.latex {
         return print(&listing(&scheme(problem)?, arguments));
     }
@@ -141,18 +132,18 @@ fn assignments(names: &[&str], values: &[f64]) -> String {
 }
 
 /// The scheme of a problem, derived from its declaration once more.
-fn scheme(problem: &dyn Problem) -> Result<Scheme, Failure> {
+fn scheme(problem: &Problem) -> Result<Scheme, Failure> {
     dmm_compiler::read(tokens(problem)?)
         .map_err(|diagnostics| unreadable(problem, &diagnostics.messages().join("; ")))
 }
 
 /// The declaration of a problem.
-fn tokens(problem: &dyn Problem) -> Result<TokenStream, Failure> {
+fn tokens(problem: &Problem) -> Result<TokenStream, Failure> {
     let declaration = problem.declaration().parse();
     declaration.map_err(|error: proc_macro2::LexError| unreadable(problem, &error.to_string()))
 }
 
-fn unreadable(problem: &dyn Problem, messages: &str) -> Failure {
+fn unreadable(problem: &Problem, messages: &str) -> Failure {
     let name = problem.description().name;
     Failure::Stopped(format!("{name} does not compile: {messages}"))
 }

@@ -43,7 +43,7 @@ impl Range {
 }
 
 /// Where a member starts unless it says otherwise.
-fn default_start(problem: &dyn Problem) -> Start {
+fn default_start(problem: &Problem) -> Start {
     let parameters = problem.parameters();
     Start {
         parameters: parameters.iter().map(|(_, value)| *value).collect(),
@@ -61,13 +61,13 @@ fn set(start: &mut Start, quantity: Quantity, value: f64) {
     }
 }
 
-fn parameter(problem: &dyn Problem, name: &str) -> Option<Quantity> {
+fn parameter(problem: &Problem, name: &str) -> Option<Quantity> {
     let parameters = problem.parameters();
     let found = parameters.iter().position(|(other, _)| *other == name);
     found.map(Quantity::Parameter)
 }
 
-fn state(problem: &dyn Problem, name: &str) -> Option<Quantity> {
+fn state(problem: &Problem, name: &str) -> Option<Quantity> {
     let found = problem.states().iter().position(|other| *other == name);
     found.map(Quantity::State)
 }
@@ -75,7 +75,7 @@ fn state(problem: &dyn Problem, name: &str) -> Option<Quantity> {
 /// Every combination of what `x=-1..1:101,y=0.5` and `a=1..2:11` say, the last one changing
 /// first.
 pub(crate) fn combinations(
-    problem: &dyn Problem,
+    problem: &Problem,
     initial: Option<&str>,
     parameters: &[String],
 ) -> Result<Members, Failure> {
@@ -157,7 +157,7 @@ fn assignment(text: &str) -> Result<(String, Range), Failure> {
 
 /// The rows of a CSV file whose columns are named after states and parameters; what has no
 /// column keeps the problem's value.
-pub(crate) fn of_file(problem: &dyn Problem, path: &Path) -> Result<Members, Failure> {
+pub(crate) fn of_file(problem: &Problem, path: &Path) -> Result<Members, Failure> {
     let file = File::open(path).map_err(|error| Failure::read(path, error))?;
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
@@ -227,7 +227,7 @@ mod tests {
     fn starts(initial: &str, parameters: &[&str]) -> Result<Starts, Failure> {
         let problem = input::problem("elliptic", &[])?;
         let parameters: Vec<String> = parameters.iter().map(|text| (*text).to_owned()).collect();
-        let members = combinations(&*problem, Some(initial), &parameters)?;
+        let members = combinations(&problem, Some(initial), &parameters)?;
         let rows: Vec<Start> = members.rows.flatten().collect();
         assert_eq!(members.count, Some(rows.len() as u64));
         Ok(rows

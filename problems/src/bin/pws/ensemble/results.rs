@@ -34,7 +34,7 @@ pub(crate) struct Results {
 impl Results {
     /// None yet, to be written to `path`.
     pub(crate) fn create(
-        problem: &dyn Problem,
+        problem: &Problem,
         path: PathBuf,
         count: Option<u64>,
     ) -> Result<Self, Failure> {
@@ -127,12 +127,7 @@ impl Results {
     }
 
     /// Closes the table and sums up.
-    pub(crate) fn finish(
-        self,
-        problem: &dyn Problem,
-        run: &Run,
-        seconds: f64,
-    ) -> Result<(), Failure> {
+    pub(crate) fn finish(self, problem: &Problem, run: &Run, seconds: f64) -> Result<(), Failure> {
         self.bar.finish_and_clear();
         let path = self.table.finish()?;
         let mut out = std::io::stdout().lock();

@@ -26,7 +26,7 @@ const EVERY: u64 = 10;
 /// Both schemes over 30 transitions.
 pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(), Failure> {
     let problem = input::problem(name, &[])?;
-    let (exact, t_end) = exact(&*problem)?;
+    let (exact, t_end) = exact(&problem)?;
     let file = format!("fig{number}_{name}_conserved");
     let mut csv = Csv::create(
         report.out.join(format!("{file}.csv")),
@@ -95,7 +95,7 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
 }
 
 /// The exact level of each region, and a time in the middle of the last segment.
-fn exact(problem: &dyn Problem) -> Result<(Vec<f64>, f64), Failure> {
+fn exact(problem: &Problem) -> Result<(Vec<f64>, f64), Failure> {
     let missing = || {
         Failure::Stopped(format!(
             "{}: no reference levels",

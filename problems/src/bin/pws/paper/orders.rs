@@ -25,7 +25,7 @@ const PERTURBATIONS: [(i32, f64, f64, &str); 3] = [
 ];
 const HALVINGS: u32 = 6;
 
-fn plan(problem: &dyn Problem, method: MethodName, step: f64) -> Plan {
+fn plan(problem: &Problem, method: MethodName, step: f64) -> Plan {
     Plan {
         method,
         initial: problem.description().initial.to_vec(),
@@ -43,8 +43,8 @@ fn order(study: &Study, errors: &[f64]) -> String {
 pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Result<(), Failure> {
     let problem = input::problem(name, &[])?;
     let study = convergence::study(
-        &*problem,
-        &plan(&*problem, MethodName::Symmetric, 1.0 / 64.0),
+        &problem,
+        &plan(&problem, MethodName::Symmetric, 1.0 / 64.0),
         || (),
     )?;
     let file = format!("fig{number}_{name}_crossing_time");
@@ -76,7 +76,7 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
     }
     panel.slope(2, 0);
     report.files.push(csv.finish()?);
-    for (transitions, quantity, errors) in quantities(&*problem, &study) {
+    for (transitions, quantity, errors) in quantities(&problem, &study) {
         if !quantity.starts_with("time") {
             let what = format!("{name}: {quantity}, after {transitions}");
             report.row(number + 1, what, "order 2", order(&study, &errors));
@@ -110,7 +110,7 @@ pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(),
     let mut panels = Vec::new();
     for (power, amplitude, step, title) in PERTURBATIONS {
         let method = MethodName::Perturbed(Perturbed { amplitude, power });
-        let study = convergence::study(&*problem, &plan(&*problem, method, step), || ())?;
+        let study = convergence::study(&problem, &plan(&problem, method, step), || ())?;
         let (x, y) = axes("‖x̂ − x‖");
         let mut panel = Panel::new(title, x, y);
         for (k, row) in study.rows.iter().enumerate() {

@@ -34,7 +34,7 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
         let regions = problem.regions();
         let mut all = Vec::new();
         for (number, start) in STARTS[system].iter().enumerate() {
-            let trajectory = trajectory(&*problem, start, T_END[system])?;
+            let trajectory = trajectory(&problem, start, T_END[system])?;
             for point in &trajectory {
                 csv.row([
                     (*name).to_owned(),
@@ -47,7 +47,7 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
             }
             all.push(trajectory);
         }
-        let mut panel = portrait::phases(&*problem, &all, (0, 1), problem.description().title);
+        let mut panel = portrait::phases(&problem, &all, (0, 1), problem.description().title);
         panel.equal_aspect = true;
         panels.push(panel);
     }
@@ -58,7 +58,7 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
     Ok(())
 }
 
-fn trajectory(problem: &dyn Problem, start: &[f64; 2], t_end: f64) -> Result<Vec<Kept>, Failure> {
+fn trajectory(problem: &Problem, start: &[f64; 2], t_end: f64) -> Result<Vec<Kept>, Failure> {
     let run = Run {
         step_size: STEP_SIZE,
         initial: start.to_vec(),

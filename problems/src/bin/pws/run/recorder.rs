@@ -12,7 +12,7 @@ use crate::portrait::{Kept, Thinned};
 use crate::progress;
 
 /// The names of all conserved quantities of a problem: those of each region, once.
-fn conserved_names(problem: &dyn Problem) -> Vec<&'static str> {
+fn conserved_names(problem: &Problem) -> Vec<&'static str> {
     let mut names = Vec::new();
     for region in 0..problem.regions().len() {
         for &name in problem.conserved_names(region) {
@@ -26,7 +26,7 @@ fn conserved_names(problem: &dyn Problem) -> Vec<&'static str> {
 
 /// Writes the files of a run and keeps what the pictures need.
 pub(super) struct Recorder<'a> {
-    problem: &'a dyn Problem,
+    problem: &'a Problem,
     regions: Vec<&'static str>,
     /// For each region the columns of its conserved quantities.
     columns: Vec<Vec<usize>>,
@@ -105,7 +105,7 @@ pub(super) struct Finished {
 impl<'a> Recorder<'a> {
     /// Opens the files.
     pub(super) fn create(
-        problem: &'a dyn Problem,
+        problem: &'a Problem,
         run: &Run,
         every: u64,
         out: &Path,
