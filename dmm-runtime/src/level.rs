@@ -12,109 +12,129 @@
 //! several quantities each is damped in the direction that it adds to those before it, and the rows
 //! that count are those that [`MinimalNorm`] keeps in the discrete vector field.
 
+mod meeting;
+
 use std::ops::Range;
 
 use crate::arithmetic::MinimalNorm;
-use crate::arithmetic::Scalar;
 use crate::arithmetic::State;
 use crate::arithmetic::Time;
+use crate::arithmetic::double::Pair;
 use crate::arithmetic::linear::dot;
+use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::contract::{Dynamics, Guards, Matrix, Vector};
-use crate::special::double::Double;
+
+pub(crate) use meeting::{Found, Meeting};
 
 /// The level of the conserved quantities in a segment.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Level<const N: usize, const M: usize> {
-    reference: Vector<f64, M>,
+pub(crate) struct Level<const N: usize, const M: usize, S: Masked = f64> {
+    pub(crate) reference: Vector<S, M>,
     /// What the reference lacks as doubles.
-    remainder: Vector<f64, M>,
+    pub(crate) remainder: Vector<S, M>,
     /// (|terms of ψ|/|x|)²: the squares of slopes count relative to these.
-    scale: Vector<f64, M>,
+    pub(crate) scale: Vector<S, M>,
 }
 
 /// The sizes of components next to a point: wᵢ² = xᵢ² + dᵢ² of the state and the step that led to
 /// it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Weights<const N: usize> {
-    squares: Vector<f64, N>,
+pub(crate) struct Weights<const N: usize, S: Masked = f64> {
+    squares: Vector<S, N>,
     /// The largest of them.
-    largest: f64,
+    largest: S,
     /// What they are multiples of: 1 unless they are so small or so large that the products they
     /// enter could leave the range of doubles.
-    unit: f64,
+    unit: S,
 }
 
-impl<const N: usize> Weights<N> {
+impl<const N: usize, S: Masked> Weights<N, S> {
     /// Those at the end `x` of a step over `displacement`.
     #[inline(always)]
-    pub(crate) fn new(x: &Vector<f64, N>, displacement: &Vector<f64, N>) -> Self {
-        let squares = x.zip_map(displacement, |x, d| d.fused(d, x * x));
-        let largest = squares.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    pub(crate) fn new(x: &Vector<S, N>, displacement: &Vector<S, N>) -> Self {
+        let one = S::from_f64(1.0);
+        let squares = vector(|i| displacement[i].fused(displacement[i], x[i] * x[i]));
+        let least = S::from_f64(f64::MIN_POSITIVE);
+        let largest = (0..N).fold(least, |largest, i| largest.max(squares[i]));
+        let above = largest.above(S::from_f64(USUAL.start));
+        let usual = above.and(S::from_f64(USUAL.end).above(largest));
+        let weights = Self {
+            squares,
+            largest,
+            unit: one,
+        };
         // nothing waits for a division that is not made
-        if USUAL.contains(&largest) {
-            return Self {
-                squares,
-                largest,
-                unit: 1.0,
-            };
+        if usual.all() {
+            return weights;
         }
+        let inverse = one / largest;
         Self {
-            squares: squares * (1.0 / largest),
-            largest: 1.0,
-            unit: largest,
+            squares: vector(|i| usual.select(squares[i], squares[i] * inverse)),
+            largest: usual.select(largest, one),
+            unit: usual.select(one, largest),
         }
-    }
-
-    /// Σ wᵢ²
-    #[inline(always)]
-    pub(crate) fn sum(&self) -> f64 {
-        self.unit * self.squares.sum()
     }
 
     /// wᵢ² Λᵢ
     #[inline(always)]
-    fn times(&self, row: &Vector<f64, N>) -> Vector<f64, N> {
-        row.component_mul(&self.squares)
+    fn times(&self, row: &Vector<S, N>) -> Vector<S, N> {
+        vector(|i| row[i] * self.squares[i])
     }
 
-    /// Λ with column i times wᵢ, and the wᵢ.
-    #[inline(always)]
-    fn scaled<const M: usize>(
+    /// The displacement that takes a residual off by Λ with column i times wᵢ, as `value` has it, and
+    /// where that matrix is steep beyond a `bound`. Lane by lane, because which of several
+    /// quantities count differs.
+    #[inline]
+    fn by_lane<const M: usize>(
         &self,
-        multiplier: &Matrix<f64, M, N>,
-    ) -> (Matrix<f64, M, N>, Vector<f64, N>) {
-        let sizes = self.squares.map(f64::sqrt);
-        let scaled = Matrix::from_fn(|m, i| multiplier[(m, i)] * sizes[i]);
-        (scaled, sizes)
+        multiplier: &Matrix<S, M, N>,
+        residual: &Vector<S, M>,
+        bound: &Vector<S, M>,
+        value: impl Fn(&MinimalNorm<f64, N, M>, &Vector<f64, M>, &Vector<f64, M>) -> Vector<f64, N>,
+    ) -> (Vector<S, N>, S::Mask) {
+        let mut results: Vector<S, N> = vector(|_| S::from_f64(0.0));
+        let mut steep = S::from_f64(0.0);
+        for lane in 0..S::LANES {
+            let sizes: Vector<f64, N> = vector(|i| self.squares[i].lane(lane).sqrt());
+            let scaled = Matrix::from_fn(|m, i| multiplier[(m, i)].lane(lane) * sizes[i]);
+            let projection = MinimalNorm::new(&scaled, &scaled);
+            let bound = vector(|m| bound[m].lane(lane));
+            steep.set_lane(lane, f64::from(u8::from(projection.is_steep(&bound))));
+            let result = value(&projection, &vector(|m| residual[m].lane(lane)), &bound);
+            for i in 0..N {
+                results[i].set_lane(lane, -(result[i] * sizes[i]));
+            }
+        }
+        (results, steep.above(S::from_f64(0.5)))
     }
 
     /// Whether the error of second order of a displacement is more than a rounding error.
     #[inline(always)]
-    fn are_left_by(&self, displacement: &Vector<f64, N>) -> bool {
-        let far = |i: usize| {
-            let bound = COARSE * COARSE * self.unit * self.squares[i];
-            displacement[i] * displacement[i] > bound
-        };
-        (0..N).fold(false, |any, i| any | far(i))
+    fn are_left_by(&self, displacement: &Vector<S, N>) -> S::Mask {
+        let coarse = S::from_f64(COARSE * COARSE) * self.unit;
+        (0..N).fold(S::Mask::all_are(false), |any, i| {
+            let square = displacement[i] * displacement[i];
+            any.or(square.above(coarse * self.squares[i]))
+        })
     }
 }
 
-impl<const N: usize, const M: usize> Level<N, M> {
-    /// Where the slope is smaller than this, rounding errors of ψ would move the state by more
-    /// than some units in its last place.
-    const LITTLE: f64 = 1.0 / 16.0;
-    /// Rounding errors of ψ are below this part of its terms.
-    const ROUNDING: f64 = 4.0 * f64::EPSILON;
-    /// σ: where the slope is smaller than this, the second order of r is more than a rounding
-    /// error of ψ.
-    const NONE: f64 = 1e-6;
+/// Where the slope is smaller than this, rounding errors of ψ would move the state by more
+/// than some units in its last place.
+const LITTLE: f64 = 1.0 / 16.0;
+/// Rounding errors of ψ are below this part of its terms.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// σ: where the slope is smaller than this, the second order of r is more than a rounding
+/// error of ψ.
+const NONE: f64 = 1e-6;
 
+impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
     /// The level at the entry into a mode, or the one that was `kept` of a segment that goes on.
-    #[inline]
-    pub(crate) fn enter<F: Dynamics<f64, N, M>>(
+    #[inline(always)]
+    pub(crate) fn enter<F: Dynamics<S, N, M>>(
         dynamics: &F,
-        time: Time,
-        state: &State<N>,
+        time: Time<S>,
+        state: &State<N, S>,
         kept: Option<&[[f64; 2]]>,
     ) -> Self {
         let psi = match kept {
@@ -122,133 +142,269 @@ impl<const N: usize, const M: usize> Level<N, M> {
             None => in_pairs(dynamics, time, state),
         };
         let mut level = Self {
-            reference: psi.map(|psi| psi.high),
-            remainder: psi.map(|psi| psi.low),
-            scale: Vector::zeros(),
+            reference: vector(|m| psi[m].high),
+            remainder: vector(|m| psi[m].low),
+            scale: vector(|_| S::from_f64(0.0)),
         };
         level.rescale(dynamics, time.value, state);
         level
     }
 
-    /// What goes on with the next segment.
-    #[cold]
-    pub(crate) fn kept(&self) -> Vec<[f64; 2]> {
-        let pairs = self.reference.iter().zip(&self.remainder);
-        pairs.map(|(&high, &low)| [high, low]).collect()
-    }
-
     /// Takes the scale of slopes from the present state, which may have grown or shrunk since
     /// the entry.
-    pub(crate) fn rescale<F: Dynamics<f64, N, M>>(
+    #[inline]
+    pub(crate) fn rescale<F: Dynamics<S, N, M>>(
         &mut self,
         dynamics: &F,
-        t: f64,
-        state: &State<N>,
+        t: S,
+        state: &State<N, S>,
     ) {
-        let squares = state.x.iter().map(|x| x * x);
-        let square = squares.fold(f64::MIN_POSITIVE, f64::max);
+        let least = S::from_f64(f64::MIN_POSITIVE);
+        let square = (0..N).fold(least, |largest, i| largest.max(state.x[i] * state.x[i]));
         let size = dynamics.conserved_size(t, &state.x);
-        self.scale = size.map(|size| size * (size / square) + f64::MIN_POSITIVE);
+        self.scale = vector(|m| size[m] * (size[m] / square) + least);
+    }
+
+    /// The squares of slopes below which a part of the scale is.
+    #[inline(always)]
+    fn bound(&self, part: f64, weights: &Weights<N, S>) -> Vector<S, M> {
+        let factor = S::from_f64(part * part) * weights.largest;
+        vector(|m| self.scale[m] * factor)
+    }
+
+    /// ψ(t, x) − ψ_ref, from ψ of the rounded state.
+    #[inline(always)]
+    fn rounded_residual(
+        &self,
+        psi: &Vector<S, M>,
+        multiplier: &Matrix<S, M, N>,
+        remainder: &Vector<S, N>,
+    ) -> Vector<S, M> {
+        vector(|m| {
+            let drift = dot(&row(multiplier, m), remainder) - self.remainder[m];
+            (psi[m] - self.reference[m]) + drift
+        })
     }
 
     /// The displacement δx towards the level.
     #[inline(always)]
-    pub(crate) fn correction<F: Dynamics<f64, N, M>>(
+    pub(crate) fn correction<F: Dynamics<S, N, M>>(
         &self,
         dynamics: &F,
-        time: Time,
-        state: &State<N>,
-        weights: &Weights<N>,
-    ) -> Vector<f64, N> {
-        let at = dynamics.multiplier(time.value, &state.x);
-        self.correction_by(dynamics, time, state, weights, &at)
-    }
-
-    /// The same by ψ and Λ at (t, x).
-    #[inline(always)]
-    pub(crate) fn correction_by<F: Dynamics<f64, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time,
-        state: &State<N>,
-        weights: &Weights<N>,
-        (psi, multiplier): &(Vector<f64, M>, Matrix<f64, M, N>),
-    ) -> Vector<f64, N> {
+        time: Time<S>,
+        state: &State<N, S>,
+        weights: &Weights<N, S>,
+    ) -> Vector<S, N> {
         if M == 0 || dynamics.quantities() == 0 {
-            return Vector::zeros();
+            return vector(|_| S::from_f64(0.0));
         }
-        let little = self.scale * (Self::LITTLE * Self::LITTLE * weights.largest);
-        if M == 1 {
-            let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
+        let little = self.bound(LITTLE, weights);
+        let (displacement, steep) = if M == 1 {
+            let row = row(&multiplier, 0);
             let weighted = weights.times(&row);
             let square = dot(&row, &weighted);
-            let inverse = 1.0 / square;
-            let drift = dot(&row, &remainder(dynamics, time, state)) - self.remainder[0];
-            if square > little[0] {
-                return weighted * -(((psi[0] - self.reference[0]) + drift) * inverse);
-            }
-            return self.gentle(dynamics, time, state, multiplier, weights);
+            let inverse = S::from_f64(1.0) / square;
+            let remainder = remainder(dynamics, time, state);
+            let residual = self.rounded_residual(&psi, &multiplier, &remainder);
+            let factor = -(residual[0] * inverse);
+            (vector(|i| weighted[i] * factor), square.above(little[0]))
+        } else {
+            let remainder = remainder(dynamics, time, state);
+            let residual = self.rounded_residual(&psi, &multiplier, &remainder);
+            weights.by_lane(
+                &multiplier,
+                &residual,
+                &little,
+                |projection, residual, _| projection.smallest(residual),
+            )
+        };
+        if steep.all() {
+            return displacement;
         }
-        let (scaled, sizes) = weights.scaled(multiplier);
-        let projection = MinimalNorm::new(&scaled, &scaled);
-        if projection.is_steep(&little) {
-            let drift = multiplier * remainder(dynamics, time, state) - self.remainder;
-            let residual = (psi - self.reference) + drift;
-            return -projection.smallest(&residual).component_mul(&sizes);
-        }
-        self.gentle(dynamics, time, state, multiplier, weights)
+        let gentle = self.gentle(dynamics, time, state, &multiplier, weights);
+        steep.select_vector(&displacement, &gentle)
     }
 
     /// The displacement where ψ has little slope, with the residual in pairs of doubles.
     #[cold]
     #[inline(never)]
-    fn gentle<F: Dynamics<f64, N, M>>(
+    fn gentle<F: Dynamics<S, N, M>>(
         &self,
         dynamics: &F,
-        time: Time,
-        state: &State<N>,
-        multiplier: &Matrix<f64, M, N>,
-        weights: &Weights<N>,
-    ) -> Vector<f64, N> {
+        time: Time<S>,
+        state: &State<N, S>,
+        multiplier: &Matrix<S, M, N>,
+        weights: &Weights<N, S>,
+    ) -> Vector<S, N> {
         let residual = self.residual(dynamics, time, state);
         self.towards(multiplier, &residual, weights)
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.
     #[inline(always)]
-    pub(crate) fn residual<F: Dynamics<f64, N, M>>(
+    pub(crate) fn residual<F: Dynamics<S, N, M>>(
         &self,
         dynamics: &F,
-        time: Time,
-        state: &State<N>,
-    ) -> Vector<f64, M> {
+        time: Time<S>,
+        state: &State<N, S>,
+    ) -> Vector<S, M> {
         let psi = in_pairs(dynamics, time, state);
-        Vector::from_fn(|i, _| (psi[i] - Double::new(self.reference[i], self.remainder[i])).high)
+        vector(|m| (psi[m] - Pair::new(self.reference[m], self.remainder[m])).high)
     }
 
     /// The displacement that takes a residual off.
     #[inline(always)]
     pub(crate) fn towards(
         &self,
-        multiplier: &Matrix<f64, M, N>,
-        residual: &Vector<f64, M>,
-        weights: &Weights<N>,
-    ) -> Vector<f64, N> {
-        let damping = self.scale * (Self::NONE * Self::NONE * weights.largest);
+        multiplier: &Matrix<S, M, N>,
+        residual: &Vector<S, M>,
+        weights: &Weights<N, S>,
+    ) -> Vector<S, N> {
+        let damping = self.bound(NONE, weights);
         if M == 1 {
-            let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
+            let row = row(multiplier, 0);
             let weighted = weights.times(&row);
             let square = dot(&row, &weighted);
-            let damping = if square > damping[0] { 0.0 } else { damping[0] };
-            return weighted * -(residual[0] / (square + damping));
+            let steep = square.above(damping[0]);
+            let damping = steep.select(S::from_f64(0.0), damping[0]);
+            let factor = -(residual[0] / (square + damping));
+            return vector(|i| weighted[i] * factor);
         }
-        let (scaled, sizes) = weights.scaled(multiplier);
-        let projection = MinimalNorm::new(&scaled, &scaled);
-        let displacement = match projection.is_steep(&damping) {
-            true => projection.smallest(residual),
-            false => projection.damped(residual, &damping),
-        };
-        -displacement.component_mul(&sizes)
+        let gentle =
+            |projection: &MinimalNorm<f64, N, M>, residual: &_, damping: &_| match projection
+                .is_steep(damping)
+            {
+                true => projection.smallest(residual),
+                false => projection.damped(residual, damping),
+            };
+        weights.by_lane(multiplier, residual, &damping, gentle).0
+    }
+
+    /// The state that a step over `displacement` has come to, put back on the level if it
+    /// `corrects`, in the lanes that are `used`.
+    #[inline(always)]
+    pub(crate) fn reached<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        displacement: &Vector<S, N>,
+        (corrects, used): (bool, S::Mask),
+    ) -> State<N, S> {
+        if M == 0 || dynamics.quantities() == 0 || !corrects {
+            return state.normalised();
+        }
+        let weights = Weights::new(&state.x, displacement);
+        if M == 1 {
+            return self.reached_at_once(dynamics, time, state, (&weights, used));
+        }
+        self.step_by_step(dynamics, time, state, (&weights, used))
+    }
+
+    /// The same for one quantity, where it has some slope. What a large correction leaves, the
+    /// square of it, is taken off with the same slope.
+    #[inline(always)]
+    fn reached_at_once<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        (weights, used): (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
+        let row = row(&multiplier, 0);
+        let weighted = weights.times(&row);
+        let square = dot(&row, &weighted);
+        let steep = square.above(self.bound(LITTLE, weights)[0]);
+        let flat = steep.not().and(used);
+        if !steep.and(used).any() {
+            return self.reached_by_steps(dynamics, time, state, (weights, flat));
+        }
+        let inverse = S::from_f64(1.0) / square;
+        let gain: Vector<S, N> = vector(|i| weighted[i] * inverse);
+        let off = remainder(dynamics, time, &state);
+        let first = self.rounded_residual(&psi, &multiplier, &off)[0];
+        let mut reached = less(state, &gain, first);
+        let coarse = square * (weights.unit * S::from_f64(COARSE * COARSE));
+        let mut rest = flat;
+        let again = (first * first).above(coarse).and(steep).and(used);
+        if again.any() {
+            let psi = dynamics.conserved(time.value, &reached.x);
+            let off = remainder(dynamics, time, &reached);
+            let second = self.rounded_residual(&psi, &multiplier, &off)[0];
+            reached = select(again, &less(reached, &gain, second), &reached);
+            // the same slope again leaves the product of the two
+            rest = rest.or(again.and((first * second).abs().above(coarse)));
+        }
+        if rest.any() {
+            reached = select(flat, &state, &reached);
+            reached = self.reached_by_steps(dynamics, time, reached, (weights, rest));
+        }
+        reached
+    }
+
+    /// The same by one correction after the other, while the square of the last one is no rounding
+    /// error; in the lanes that are `used`.
+    #[inline(always)]
+    fn reached_by_steps<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        how: (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        // what is not inlined does not compute in lanes
+        if S::LANES == 1 {
+            self.step_by_step_apart(dynamics, time, state, how)
+        } else {
+            self.step_by_step(dynamics, time, state, how)
+        }
+    }
+
+    #[inline(never)]
+    fn step_by_step_apart<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        how: (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        self.step_by_step(dynamics, time, state, how)
+    }
+
+    #[inline(always)]
+    fn step_by_step<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        mut state: State<N, S>,
+        (weights, mut used): (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        /// The error falls to its square each time, and then to the part that damping leaves.
+        const MOST: u32 = 9;
+        for _ in 0..MOST {
+            let displacement = self.correction(dynamics, time, &state, weights);
+            let mut moved = state;
+            for i in 0..N {
+                moved.remainder[i] += displacement[i];
+            }
+            state = select(used, &moved.normalised(), &state);
+            used = used.and(weights.are_left_by(&displacement));
+            if !used.any() {
+                break;
+            }
+        }
+        state
+    }
+}
+
+impl<const N: usize, const M: usize> Level<N, M> {
+    /// What goes on with the next segment.
+    #[cold]
+    pub(crate) fn kept(&self) -> Vec<[f64; 2]> {
+        let pairs = self.reference.iter().zip(&self.remainder);
+        pairs.map(|(&high, &low)| [high, low]).collect()
     }
 
     /// Whether ψ is further from its level than the rounding errors of evaluating it: a state that
@@ -260,98 +416,47 @@ impl<const N: usize, const M: usize> Level<N, M> {
         state: &State<N>,
     ) -> bool {
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
-        let drift = multiplier * remainder(dynamics, time, state) - self.remainder;
-        let residual = (psi - self.reference) + drift;
+        let remainder = remainder(dynamics, time, state);
+        let residual = self.rounded_residual(&psi, &multiplier, &remainder);
         let size = dynamics.conserved_size(time.value, &state.x);
         let mut errors = residual.iter().zip(&size);
-        errors.any(|(residual, size)| residual.abs() > Self::ROUNDING * size)
+        errors.any(|(residual, size)| residual.abs() > ROUNDING * size)
     }
+}
 
-    /// The state that a step over `displacement` has come to, put back on the level if it
-    /// `corrects`.
-    #[inline(always)]
-    pub(crate) fn reached<F: Dynamics<f64, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time,
-        state: State<N>,
-        displacement: &Vector<f64, N>,
-        corrects: bool,
-    ) -> State<N> {
-        if M == 0 || dynamics.quantities() == 0 || !corrects {
-            return state.normalised();
-        }
-        let weights = Weights::new(&state.x, displacement);
-        if M == 1
-            && let Some(reached) = self.reached_at_once(dynamics, time, &state, &weights)
-        {
-            return reached;
-        }
-        self.reached_by_steps(dynamics, time, state, &weights)
+/// The state without `gain` times a residual.
+#[inline(always)]
+fn less<const N: usize, S: Masked>(
+    mut state: State<N, S>,
+    gain: &Vector<S, N>,
+    residual: S,
+) -> State<N, S> {
+    for i in 0..N {
+        state.remainder[i] -= gain[i] * residual;
     }
+    state.normalised()
+}
 
-    /// The same for one quantity that has some slope. What a large correction leaves, the square
-    /// of it, is taken off with the same slope.
-    #[inline(always)]
-    fn reached_at_once<F: Dynamics<f64, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time,
-        state: &State<N>,
-        weights: &Weights<N>,
-    ) -> Option<State<N>> {
-        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
-        let row = Vector::from_fn(|i, _| multiplier[(0, i)]);
-        let weighted = weights.times(&row);
-        let square = dot(&row, &weighted);
-        if square <= self.scale[0] * (Self::LITTLE * Self::LITTLE * weights.largest) {
-            return None;
-        }
-        let gain = weighted * (1.0 / square);
-        let residual = |psi: Vector<f64, M>, state: &State<N>| {
-            let drift = dot(&row, &remainder(dynamics, time, state)) - self.remainder[0];
-            (psi[0] - self.reference[0]) + drift
-        };
-        let without = |mut state: State<N>, residual: f64| {
-            state.remainder -= gain * residual;
-            state.normalised()
-        };
-        let first = residual(psi, state);
-        let mut reached = without(*state, first);
-        let coarse = square * (weights.unit * (COARSE * COARSE));
-        if first * first > coarse {
-            let second = residual(dynamics.conserved(time.value, &reached.x), &reached);
-            reached = without(reached, second);
-            // the same slope again leaves the product of the two
-            if (first * second).abs() > coarse {
-                reached = self.reached_by_steps(dynamics, time, reached, weights);
-            }
-        }
-        Some(reached)
+/// The one state where a mask is true, the other elsewhere.
+#[inline(always)]
+fn select<const N: usize, S: Masked>(
+    mask: S::Mask,
+    one: &State<N, S>,
+    other: &State<N, S>,
+) -> State<N, S> {
+    State {
+        x: mask.select_vector(&one.x, &other.x),
+        remainder: mask.select_vector(&one.remainder, &other.remainder),
     }
+}
 
-    /// The same by one correction after the other, while the square of the last one is no rounding
-    /// error.
-    #[inline(never)]
-    fn reached_by_steps<F: Dynamics<f64, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time,
-        mut state: State<N>,
-        weights: &Weights<N>,
-    ) -> State<N> {
-        /// The error falls to its square each time, and then to the part that damping leaves.
-        const MOST: u32 = 9;
-        for _ in 0..MOST {
-            let displacement = self.correction(dynamics, time, &state, weights);
-            state.remainder += displacement;
-            state = state.normalised();
-            if !weights.are_left_by(&displacement) {
-                break;
-            }
-        }
-        state
-    }
+/// Row m of Λ.
+#[inline(always)]
+fn row<S: Masked, const N: usize, const M: usize>(
+    multiplier: &Matrix<S, M, N>,
+    m: usize,
+) -> Vector<S, N> {
+    vector(|i| multiplier[(m, i)])
 }
 
 /// Where squares of sizes and the products that they enter are far from the ends of the range of
@@ -368,61 +473,85 @@ const MOST_IN_PAIRS: usize = 12;
 
 /// ψ_ref of a segment that was stopped; NaN where there is none.
 #[cold]
-fn from_kept<const M: usize>(kept: &[[f64; 2]]) -> Vector<Double, M> {
-    Vector::from_fn(|i, _| {
+fn from_kept<S: Masked, const M: usize>(kept: &[[f64; 2]]) -> Vector<Pair<S>, M> {
+    vector(|i| {
         let [high, low] = kept.get(i).copied().unwrap_or([f64::NAN; 2]);
-        Double::new(high, low)
+        Pair::new(S::from_f64(high), S::from_f64(low))
     })
 }
 
 /// ψ at the state and time with their remainders.
-#[inline]
-fn in_pairs<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+#[inline(always)]
+fn in_pairs<S: Masked, const N: usize, const M: usize, F: Dynamics<S, N, M>>(
     dynamics: &F,
-    time: Time,
-    state: &State<N>,
-) -> Vector<Double, M> {
+    time: Time<S>,
+    state: &State<N, S>,
+) -> Vector<Pair<S>, M> {
     if const { N > MOST_IN_PAIRS } {
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
-        let drift = multiplier * remainder(dynamics, time, state);
-        return Vector::from_fn(|i, _| Double::sum(psi[i], drift[i]));
+        let remainder = remainder(dynamics, time, state);
+        return vector(|m| Pair::sum(psi[m], dot(&row(&multiplier, m), &remainder)));
+    }
+    // what is not inlined does not compute in lanes
+    if S::LANES == 1 {
+        return conserved_apart(dynamics, time, state);
     }
     let (t, x) = pairs(time, state);
-    dynamics.over::<Double>().conserved(t, &x)
+    dynamics.over::<Pair<S>>().conserved(t, &x)
+}
+
+/// ψ in pairs, by code that is there once.
+#[inline(never)]
+fn conserved_apart<S: Masked, const N: usize, const M: usize, F: Dynamics<S, N, M>>(
+    dynamics: &F,
+    time: Time<S>,
+    state: &State<N, S>,
+) -> Vector<Pair<S>, M> {
+    let (t, x) = pairs(time, state);
+    dynamics.over::<Pair<S>>().conserved(t, &x)
 }
 
 /// g at the state and time with their remainders, rounded.
 #[inline(always)]
-pub(crate) fn switching_in_pairs<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+pub(crate) fn switching_in_pairs<
+    S: Masked,
+    const N: usize,
+    const M: usize,
+    F: Dynamics<S, N, M>,
+>(
     dynamics: &F,
     interface: usize,
-    time: Time,
-    state: &State<N>,
-) -> f64 {
+    time: Time<S>,
+    state: &State<N, S>,
+) -> S {
     let (t, x) = pairs(time, state);
-    let guards = dynamics.guards().over::<Double>();
+    let guards = dynamics.guards().over::<Pair<S>>();
     guards.switching_function(interface, t, &x).high
 }
 
 /// A time and a state as pairs of doubles.
 #[inline(always)]
-fn pairs<const N: usize>(time: Time, state: &State<N>) -> (Double, Vector<Double, N>) {
+fn pairs<S: Masked, const N: usize>(
+    time: Time<S>,
+    state: &State<N, S>,
+) -> (Pair<S>, Vector<Pair<S>, N>) {
     (
-        Double::new(time.value, time.remainder),
-        Vector::from_fn(|i, _| Double::new(state.x[i], state.remainder[i])),
+        Pair::new(time.value, time.remainder),
+        vector(|i| Pair::new(state.x[i], state.remainder[i])),
     )
 }
 
 /// The state's remainder, as far as ψ is concerned with that of the time: ψ(t + δ, x) is
 /// ψ(t, x − fδ), because ∂ₜψ = −∇ψ·f.
 #[inline(always)]
-fn remainder<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
+fn remainder<S: Masked, const N: usize, const M: usize, F: Dynamics<S, N, M>>(
     dynamics: &F,
-    time: Time,
-    state: &State<N>,
-) -> Vector<f64, N> {
-    if dynamics.is_autonomous() || time.remainder == 0.0 {
+    time: Time<S>,
+    state: &State<N, S>,
+) -> Vector<S, N> {
+    if dynamics.is_autonomous() || time.remainder.equals(S::from_f64(0.0)).all() {
         return state.remainder;
     }
-    state.remainder - dynamics.vector_field(time.value, &state.x) * time.remainder
+    let field = dynamics.vector_field(time.value, &state.x);
+    vector(|i| state.remainder[i] - field[i] * time.remainder)
 }

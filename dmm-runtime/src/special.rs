@@ -41,7 +41,6 @@ mod arc;
 mod arcsine;
 mod arctangent;
 mod cardinal;
-pub(crate) mod double;
 mod exponential;
 mod logarithm;
 mod pairs;

@@ -1,34 +1,41 @@
 //! Error-free transformations: a rounded operation with its rounding error.
 
-use super::Scalar;
+use std::ops::{Add, Sub};
 
-/// a + b = s + e exactly, s the rounded sum (Knuth, TAOCP 2, 4.2.2, theorem B).
+/// a + b = s + e exactly, s the rounded sum (Knuth, TAOCP 2, 4.2.2, theorem B); of vectors by
+/// component.
 #[inline(always)]
-pub(crate) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
+pub(crate) fn two_sum<T: Copy + Add<Output = T> + Sub<Output = T>>(a: T, b: T) -> (T, T) {
     let s = a + b;
     let b_part = s - a;
     let a_part = s - b_part;
     (s, (a - a_part) + (b - b_part))
 }
 
-/// a·b = p + e exactly, barring overflow (Dekker 1971).
-///
-/// By splitting where the target has no fused multiply-add: there that is a library call.
+/// Whether the target has a fused multiply-add; elsewhere that is a library call.
+pub(crate) const HAS_FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+
+/// a·b = p + e exactly, barring overflow.
 #[inline]
 pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
-    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-        let p = a * b;
+    let p = a * b;
+    if HAS_FUSED {
         return (p, a.mul_add(b, -p));
     }
+    (p, split_error(a, b, p))
+}
+
+/// a·b − p of the rounded product p, by splitting the factors (Dekker 1971).
+#[inline(always)]
+pub(crate) const fn split_error(a: f64, b: f64, p: f64) -> f64 {
     const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
-    let split = |v: f64| {
+    const fn high(v: f64) -> f64 {
         let c = SPLITTER * v;
-        let high = c - (c - v);
-        (high, v - high)
-    };
-    let p = a * b;
-    let ((ah, al), (bh, bl)) = (split(a), split(b));
-    (p, ((ah * bh - p) + ah * bl + al * bh) + al * bl)
+        c - (c - v)
+    }
+    let (ah, bh) = (high(a), high(b));
+    let (al, bl) = (a - ah, b - bh);
+    ((ah * bh - p) + ah * bl + al * bh) + al * bl
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 use std::hint::black_box;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::arithmetic::Scalar;
+use super::Scalar;
+use super::masked::{Mask, Masked};
 
 /// L doubles that are computed with together, each in a lane of its own.
 ///
@@ -24,42 +25,6 @@ impl<const L: usize> Lanes<L> {
     fn each(value: impl FnMut(usize) -> f64) -> Self {
         Self(from_fn(value))
     }
-
-    /// The larger of both.
-    #[inline(always)]
-    pub(crate) fn max(self, other: Self) -> Self {
-        Self::each(|i| {
-            if self.0[i] > other.0[i] {
-                self.0[i]
-            } else {
-                other.0[i]
-            }
-        })
-    }
-
-    /// The smaller of both.
-    #[inline(always)]
-    pub(crate) fn min(self, other: Self) -> Self {
-        Self::each(|i| {
-            if self.0[i] < other.0[i] {
-                self.0[i]
-            } else {
-                other.0[i]
-            }
-        })
-    }
-
-    /// Where it is greater.
-    #[inline(always)]
-    pub(crate) fn above(self, other: Self) -> Mask<L> {
-        Mask(from_fn(|i| every_bit(self.0[i] > other.0[i])))
-    }
-
-    /// Where it is equal.
-    #[inline(always)]
-    pub(crate) fn equals(self, other: Self) -> Mask<L> {
-        Mask(from_fn(|i| every_bit(self.0[i] == other.0[i])))
-    }
 }
 
 /// All bits or none.
@@ -70,46 +35,87 @@ fn every_bit(set: bool) -> u64 {
 
 /// A truth value for each lane: all bits or none, as vector registers have it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Mask<const L: usize>([u64; L]);
+pub(crate) struct LaneMask<const L: usize>([u64; L]);
 
-impl<const L: usize> Mask<L> {
-    /// The same in every lane.
+impl<const L: usize> Mask<Lanes<L>> for LaneMask<L> {
     #[inline(always)]
-    pub(crate) fn all(set: bool) -> Self {
+    fn all_are(set: bool) -> Self {
         Self([every_bit(set); L])
     }
 
-    /// Both.
     #[inline(always)]
-    pub(crate) fn and(self, other: Self) -> Self {
+    fn and(self, other: Self) -> Self {
         Self(from_fn(|i| self.0[i] & other.0[i]))
     }
 
-    /// One or both.
     #[inline(always)]
-    pub(crate) fn or(self, other: Self) -> Self {
+    fn or(self, other: Self) -> Self {
         Self(from_fn(|i| self.0[i] | other.0[i]))
     }
 
-    /// Neither.
     #[inline(always)]
-    pub(crate) fn not(self) -> Self {
+    fn not(self) -> Self {
         Self(from_fn(|i| !self.0[i]))
     }
 
-    /// Whether it is true in any lane.
     #[inline(always)]
-    pub(crate) fn any(self) -> bool {
+    fn any(self) -> bool {
         self.0.iter().fold(0, |any, lane| any | lane) != 0
     }
 
-    /// The one where it is true, the other elsewhere.
     #[inline(always)]
-    pub(crate) fn select(self, one: Lanes<L>, other: Lanes<L>) -> Lanes<L> {
+    fn select(self, one: Lanes<L>, other: Lanes<L>) -> Lanes<L> {
         Lanes::each(|i| {
             let (one, other) = (one.0[i].to_bits(), other.0[i].to_bits());
             f64::from_bits((one & self.0[i]) | (other & !self.0[i]))
         })
+    }
+}
+
+impl<const L: usize> Masked for Lanes<L> {
+    type Mask = LaneMask<L>;
+    const LANES: usize = L;
+
+    #[inline(always)]
+    fn set_lane(&mut self, lane: usize, value: f64) {
+        self.0[lane] = value;
+    }
+
+    #[inline(always)]
+    fn above(self, b: Self) -> LaneMask<L> {
+        LaneMask(from_fn(|i| every_bit(self.0[i] > b.0[i])))
+    }
+
+    #[inline(always)]
+    fn equals(self, b: Self) -> LaneMask<L> {
+        LaneMask(from_fn(|i| every_bit(self.0[i] == b.0[i])))
+    }
+
+    #[inline(always)]
+    fn max(self, b: Self) -> Self {
+        Self::each(|i| {
+            if self.0[i] > b.0[i] {
+                self.0[i]
+            } else {
+                b.0[i]
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn min(self, b: Self) -> Self {
+        Self::each(|i| {
+            if self.0[i] < b.0[i] {
+                self.0[i]
+            } else {
+                b.0[i]
+            }
+        })
+    }
+
+    #[inline(always)]
+    fn product_error(self, b: Self, product: Self) -> Self {
+        self.fused(b, -product)
     }
 }
 
@@ -180,7 +186,7 @@ macro_rules! by_lane {
 }
 
 impl<const L: usize> Scalar for Lanes<L> {
-    const ROUNDING: Self = Self([f64::ROUNDING; L]);
+    const ROUNDING: f64 = f64::ROUNDING;
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
@@ -191,6 +197,16 @@ impl<const L: usize> Scalar for Lanes<L> {
     #[inline(always)]
     fn to_f64(self) -> f64 {
         self.0.first().copied().unwrap_or(f64::NAN)
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.0[lane]
+    }
+
+    #[inline(always)]
+    fn by_lane(value: impl Fn(usize) -> f64) -> Self {
+        Self::each(value)
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@ const LARGEST_CLOSED: usize = 4;
 
 /// a·b
 #[inline(always)]
-pub(crate) fn dot<const N: usize>(a: &Vector<f64, N>, b: &Vector<f64, N>) -> f64 {
+pub(crate) fn dot<S: Scalar, const N: usize>(a: &Vector<S, N>, b: &Vector<S, N>) -> S {
     (1..N).fold(a[0] * b[0], |sum, i| a[i].fused(b[i], sum))
 }
 

@@ -15,6 +15,7 @@
 //! O(τ²) between Λ^τ and Λ cannot make a dependent row look independent.
 
 use crate::arithmetic::Scalar;
+use crate::arithmetic::linear::dot;
 use crate::arithmetic::{Matrix, Vector};
 
 /// A row whose part orthogonal to the others is smaller than this share of it is dependent:
@@ -231,11 +232,6 @@ fn independent_rows<S: Scalar, const M: usize, const N: usize>(
 #[inline]
 fn row<S: Scalar, const R: usize, const C: usize>(m: &Matrix<S, R, C>, i: usize) -> Vector<S, C> {
     Vector::from_fn(|j, _| m[(i, j)])
-}
-
-#[inline]
-fn dot<S: Scalar, const N: usize>(a: &Vector<S, N>, b: &Vector<S, N>) -> S {
-    (0..N).fold(S::from_f64(0.0), |sum, i| sum + a[i] * b[i])
 }
 
 #[inline]

@@ -1,9 +1,11 @@
 //! Numbers: scalars, pairs of doubles, time and state with their remainders, lanes, and the small
 //! linear systems of a step.
 
+pub(crate) mod double;
 pub(crate) mod error_free;
 pub(crate) mod lanes;
 pub(crate) mod linear;
+pub(crate) mod masked;
 mod minimal_norm;
 mod scalar;
 mod sparse;
@@ -12,6 +14,7 @@ mod time;
 
 pub use minimal_norm::MinimalNorm;
 pub use scalar::Scalar;
+pub(crate) use scalar::noise;
 pub use sparse::sparse;
 pub use state::State;
 pub use time::Time;

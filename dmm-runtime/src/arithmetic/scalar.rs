@@ -24,12 +24,22 @@ pub trait Scalar:
     + DivAssign
 {
     /// Half the distance from 1 to the next scalar: the relative rounding error.
-    const ROUNDING: Self;
+    const ROUNDING: f64;
 
     /// The scalar nearest to `value`.
     fn from_f64(value: f64) -> Self;
     /// The value as a double.
     fn to_f64(self) -> f64;
+    /// The value in a lane, where there are several at once.
+    #[inline(always)]
+    fn lane(self, _lane: usize) -> f64 {
+        self.to_f64()
+    }
+    /// The scalar nearest to `value(i)` in every lane i.
+    #[inline(always)]
+    fn by_lane(value: impl Fn(usize) -> f64) -> Self {
+        Self::from_f64(value(0))
+    }
     /// u·b + c, u = self: with one rounding where the processor has an instruction for it,
     /// which the target's features tell, and otherwise with two. (A library's fused operation
     /// takes several times as long as a product and a sum.)
@@ -97,4 +107,13 @@ pub trait Scalar:
     fn atan_dd(self, b: Self) -> Self;
     /// ∂ atan_dd(a, b)/∂b
     fn atan_dd_prime(self, b: Self) -> Self;
+}
+
+/// A sum that is so many rounding errors of its terms away from zero is not distinguished from it.
+const NOISE: f64 = 16.0;
+
+/// The rounding error of a sum whose terms are of a size; see [`NOISE`].
+#[inline(always)]
+pub(crate) fn noise<S: Scalar>(size: S) -> S {
+    S::from_f64(NOISE * f64::ROUNDING) * size
 }

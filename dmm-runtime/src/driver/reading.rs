@@ -1,10 +1,7 @@
 //! A switching function read at a point.
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::noise;
 use crate::contract::{Dynamics, DynamicsVisitor, Guards, System, Vector};
-
-/// g this many rounding errors of its terms away from zero is on the interface.
-const NOISE: f64 = 8.0;
 
 /// The value of g, the size of its terms and dg/dt under the field of a region.
 pub(super) struct Reading {
@@ -26,7 +23,7 @@ impl Reading {
     }
 
     pub(super) fn is_zero(&self) -> bool {
-        self.value.abs() <= NOISE * f64::ROUNDING * self.size
+        self.value.abs() <= noise(self.size)
     }
 }
 

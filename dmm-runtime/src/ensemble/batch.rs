@@ -13,10 +13,10 @@ use super::trajectory::Trajectory;
 use super::vectorised::{Vectorised, Work};
 use super::{Member, Outcome};
 use crate::arithmetic::Scalar;
-use crate::arithmetic::Time;
 use crate::contract::System;
 use crate::error::Error;
 use crate::events::ends::Decay;
+use crate::method::Ended;
 use crate::method::taylor::Taylor;
 use crate::output::Halted;
 
@@ -311,28 +311,17 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         }
     }
 
-    /// Makes a step by the scalar method.
+    /// Goes on by the scalar method, to the next transition or the end.
     fn step_alone(&mut self, number: usize) {
-        let end = self.settings.end;
         let trajectory = &mut self.trajectories[number];
-        let until = trajectory.time.value + trajectory.tau;
-        // lanes have no unit of time but 1
-        let returns = trajectory.memory.unit == 1.0;
-        let until = match returns && until > trajectory.time.value && until < end {
-            true => until,
-            false => end,
-        };
-        match trajectory.go_on(self.method, until) {
-            Err(error) => self.finish(number, Err(error)),
-            Ok(()) if trajectory.time == Time::new(end) => self.finish(number, Ok(())),
-            Ok(()) => {
+        match trajectory.go_on(self.method, self.settings.end) {
+            Ok(Ended::AtGuard { guard, .. }) => {
                 let region = Sys::index(trajectory.region);
-                let job = match trajectory.active {
-                    None => Job::Step,
-                    active => Job::Enter(active),
-                };
+                let job = Job::Enter(Some(guard));
                 self.queues.of(region, job).push(number);
             }
+            Ok(Ended::Finished | Ended::Stopped) => self.finish(number, Ok(())),
+            Err(error) => self.finish(number, Err(error)),
         }
     }
 

@@ -2,17 +2,19 @@
 
 use std::hint::black_box;
 
-use super::ends::course;
-use super::level::Place;
-use super::register::{Register, WIDTH, Wide};
-use crate::arithmetic::Scalar;
-use crate::arithmetic::error_free::two_sum;
-use crate::arithmetic::lanes::Mask;
+use super::register::{Register, Wide, WideMask};
+use crate::arithmetic::linear::dot;
+use crate::arithmetic::masked::{Mask, Masked, vector};
+use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, DynamicsVisitor, Guards, Vector};
-use crate::events::ends::Decay;
-use crate::expansion::jet::{GuardsUnrolled, expand, first_switching};
+use crate::events::ends::{Decay, Ends};
+use crate::expansion::jet::{FirstSeries, GuardsUnrolled, expand, first_switching};
 use crate::expansion::polynomial::increment;
-use crate::expansion::radius::{FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE};
+use crate::expansion::radius::{
+    FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE, decisive, decisive_terms, radius,
+};
+use crate::level::Level;
+use crate::method::taylor::{RESCALING, step_to};
 
 /// Halvings of a step of which the ends do not tell enough.
 const MOST_HALVINGS: u32 = 2;
@@ -97,47 +99,59 @@ struct Entry {
     /// They are on this interface …
     interface: Option<usize>,
     /// … but these are not led into the region.
-    barred: Option<Mask<WIDTH>>,
+    barred: Option<WideMask>,
 }
 
 /// What the lanes meet in a step.
 struct Ahead {
-    hard: Mask<WIDTH>,
-    crosses: Mask<WIDTH>,
+    hard: WideMask,
+    crosses: WideMask,
+    from: Wide,
     elapsed: Wide,
     interface: Wide,
 }
 
+/// Where the lanes are.
+type Place<const N: usize> = (Time<Wide>, State<N, Wide>);
+
 impl<const N: usize> Register<N> {
-    /// Where the lanes are.
+    /// Moves the lanes of a mask.
     #[inline(always)]
-    pub(super) fn place(&self) -> Place<N> {
-        Place {
-            t: self.t,
-            t_remainder: self.t_remainder,
-            x: self.x,
-            remainder: self.remainder,
+    pub(super) fn move_to(&mut self, moved: WideMask, (time, state): &Place<N>) {
+        self.time.value = moved.select(time.value, self.time.value);
+        self.time.remainder = moved.select(time.remainder, self.time.remainder);
+        self.state.x = moved.select_vector(&state.x, &self.state.x);
+        self.state.remainder = moved.select_vector(&state.remainder, &self.state.remainder);
+    }
+
+    /// The level of the conserved quantities.
+    #[inline(always)]
+    pub(super) fn level<const M: usize>(&self) -> Level<N, M, Wide> {
+        let [reference, remainder, scale] = &self.level;
+        Level {
+            reference: vector(|m| reference[m]),
+            remainder: vector(|m| remainder[m]),
+            scale: vector(|m| scale[m]),
         }
     }
 
-    /// Moves the lanes of a mask.
+    /// Keeps that level.
     #[inline(always)]
-    pub(super) fn move_to(&mut self, moved: Mask<WIDTH>, place: &Place<N>) {
-        self.t = moved.select(place.t, self.t);
-        self.t_remainder = moved.select(place.t_remainder, self.t_remainder);
-        for i in 0..N {
-            self.x[i] = moved.select(place.x[i], self.x[i]);
-            self.remainder[i] = moved.select(place.remainder[i], self.remainder[i]);
+    fn keep<const M: usize>(&mut self, level: &Level<N, M, Wide>) {
+        for m in 0..M {
+            self.level[0][m] = level.reference[m];
+            self.level[1][m] = level.remainder[m];
+            self.level[2][m] = level.scale[m];
         }
     }
 }
 
-/// Where a place has finite coordinates.
+/// Where a state has finite coordinates.
 #[inline(always)]
-pub(super) fn is_finite<const N: usize>(place: &Place<N>) -> Mask<WIDTH> {
+fn is_finite<const N: usize>(state: &State<N, Wide>) -> WideMask {
     let zero = Wide::from_f64(0.0);
     // 0·u is 0 for a finite u and NaN otherwise
-    let sum = (0..N).fold(zero, |sum, i| sum + zero * place.x[i]);
+    let sum = (0..N).fold(zero, |sum, i| sum + zero * state.x[i]);
     sum.equals(zero)
 }
 
@@ -150,7 +164,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
 
     /// The sign of g in the region.
     #[inline(always)]
-    fn sign(&self, interface: usize) -> f64 {
+    pub(super) fn sign(&self, interface: usize) -> f64 {
         let mut sides = self.sides().iter();
         let side = sides.find(|(other, _)| *other == interface);
         side.map_or(0.0, |(_, side)| side.sign())
@@ -159,12 +173,15 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The level of a region that is entered.
     #[inline(always)]
     fn enter(&mut self, interface: Option<usize>) -> Entry {
-        self.register.enter_level(self.dynamics);
+        let Register { time, state, .. } = &*self.register;
+        let level = Level::enter(self.dynamics, *time, state, None);
         let barred = interface.map(|interface| {
-            let rate = self.approach(interface, &self.register.place()).rate;
+            let rate = self.dynamics.rate(interface, time.value, &state.x);
             let inwards = Wide::from_f64(self.sign(interface)) * rate;
             inwards.above(Wide::from_f64(0.0)).not()
         });
+        self.register.keep(&level);
+        self.register.since = Wide::from_f64(0.0);
         Entry {
             enters: true,
             interface,
@@ -175,48 +192,56 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The solution's coefficients.
     #[inline(always)]
     fn expand(&mut self) {
-        let Register { t, x, .. } = &*self.register;
+        let Register { time, state, .. } = &*self.register;
         let series = &mut *self.series;
-        expand::<_, F, F::Unrolled, N, M, _>(self.dynamics, (*t, x), series, COEFFICIENTS, 1.0);
+        let place = (time.value, &state.x);
+        expand::<_, F, F::Unrolled, N, M, _>(self.dynamics, place, series, COEFFICIENTS, 1.0);
+    }
+
+    /// The first coefficients of g.
+    #[inline(always)]
+    pub(super) fn first_switching(&self) -> FirstSeries<Wide, F, N, M> {
+        first_switching::<_, F, GuardsUnrolled<_, F, N, M>, N, M, COEFFICIENTS>(
+            self.dynamics,
+            self.register.time.value,
+            self.series.as_ref(),
+            1.0,
+        )
     }
 
     /// The steps that the tolerance allows, and where coefficients may have left the range of
     /// doubles; see [`crate::expansion::jet::Jet::step`].
     #[inline(always)]
-    fn wanted(&self, enters: bool) -> (Wide, Mask<WIDTH>) {
-        let zero = Wide::from_f64(0.0);
-        let (mut last, mut second) = (zero, zero);
-        let series = &self.series.as_ref()[..N];
-        let largest = |k: usize| {
-            series
-                .iter()
-                .fold(zero, |largest, c| largest.max(c[k].abs()))
-        };
-        for c in series {
-            let mut size = c[1].abs().fused(self.register.before, c[0].abs());
-            if enters {
-                // there may have been no step before
-                let first = largest(0).above(zero).select(largest(0), largest(1));
-                size = self.register.before.above(zero).select(size, first);
-            }
-            let scale = Wide::from_f64(1.0) / size.max(Wide::from_f64(f64::MIN_POSITIVE));
-            last = last.max(c[ORDER].abs() * scale);
-            second = second.max(c[ORDER - 1].abs() * scale);
-        }
-        let radius = inverse_root(last, ORDER).min(inverse_root(second, ORDER - 1));
+    fn wanted(&self, enters: bool) -> (Wide, WideMask) {
         let n = Wide::from_f64;
+        let order = const { decisive(ORDER) };
+        let series = &self.series.as_ref()[..N];
+        let before = self.register.before;
+        let (mut last, mut second) = decisive_terms(series, order, before);
+        if enters {
+            // there may have been no step before
+            let largest = |k: usize| {
+                let sizes = series.iter().map(|c| c[k].abs());
+                sizes.fold(n(0.0), Masked::max)
+            };
+            let none = before.above(n(0.0)).not();
+            let size = largest(0).above(n(0.0)).select(largest(0), largest(1));
+            let scale = n(1.0) / size.max(n(f64::MIN_POSITIVE));
+            last = none.select(largest(order) * scale, last);
+            second = none.select(largest(order - 1) * scale, second);
+        }
         // what is lost to underflow counts only in a time of powers as large
-        let remaining = n(self.settings.end) - self.register.t;
-        let is_long = remaining.above(n(FASTEST));
+        let remaining = n(self.settings.end) - self.register.time.value;
+        let is_long = remaining.above(n(FASTEST)).or(last.above(n(0.0)));
         let too_small = n(SMALLEST_DECISIVE).above(last).and(is_long);
         let too_large = n(LARGEST_DECISIVE).above(last).not();
-        let step = n(self.settings.fraction) * radius;
+        let step = n(self.settings.fraction) * radius(order, last, second);
         (step, too_small.or(too_large))
     }
 
     /// Σ xⱼ hʲ over j ≥ 1.
     #[inline(always)]
-    fn increment(&self, h: Wide) -> Vector<Wide, N> {
+    pub(super) fn increment(&self, h: Wide) -> Vector<Wide, N> {
         // a loop, as closures are not inlined for certain
         let mut sum: Vector<Wide, N> = Vector::from_element(Wide::from_f64(0.0));
         for (sum, series) in sum.iter_mut().zip(self.series.as_ref()) {
@@ -225,79 +250,54 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         sum
     }
 
-    /// The place after `elapsed`, without correction.
-    #[inline(always)]
-    pub(super) fn after(&self, elapsed: Wide) -> Place<N> {
-        let mut place = self.register.place();
-        place.add_time(elapsed);
-        place.add(&self.increment(elapsed));
-        place
-    }
-
-    /// Steps over `size`, or up to the end: their sizes, which are the last ones, and where they
-    /// lead, without correction.
-    #[inline(always)]
-    fn reached(&self, size: Wide) -> (Wide, Mask<WIDTH>, Place<N>) {
-        let n = Wide::from_f64;
-        let (start, start_remainder) = (self.register.t, self.register.t_remainder);
-        let (difference, error) = two_sum(n(self.settings.end), -start);
-        let remaining = difference + (error - start_remainder);
-        let last = size.above(remaining).or(size.equals(remaining));
-        let mut tau = last.select(remaining, size);
-        let mut place = self.register.place();
-        if self.dynamics.is_autonomous() {
-            place.add_time(tau);
-        } else {
-            // the formulas are evaluated at a double
-            place.t = start + size;
-            let (difference, error) = two_sum(place.t, -start);
-            tau = last.select(remaining, difference + (error - start_remainder));
-            place.t_remainder = n(0.0);
-        }
-        place.t = last.select(n(self.settings.end), place.t);
-        place.t_remainder = last.select(n(0.0), place.t_remainder);
-        place.add(&self.increment(tau));
-        (tau, last, place)
-    }
-
     /// A step of every lane, and whether one needs attention.
     #[inline(always)]
     fn step(&mut self, entry: &Entry) -> bool {
         let n = Wide::from_f64;
-        let (start, start_remainder) = (self.register.t, self.register.t_remainder);
+        let (start, used) = (self.register.time, self.register.used());
         let (wanted, out_of_range) = self.wanted(entry.enters);
         let wanted = wanted.settled();
         let mut size = wanted;
         let mut halvings = 0;
-        let (tau, last, mut place, ahead) = loop {
-            let (tau, last, place) = self.reached(size);
-            let ahead = self.look_ahead(tau, &place, entry.interface);
-            let near = ahead.hard.and(self.register.used());
+        let (tau, last, time, mut state, ahead) = loop {
+            let end = n(self.settings.end);
+            let (tau, time, last) = step_to(self.dynamics.is_autonomous(), start, size, end);
+            let state = self.register.state.after(&self.increment(tau));
+            let ahead = self.look_ahead(tau, (time, &state), entry.interface);
+            let near = ahead.hard.and(used);
             if halvings == MOST_HALVINGS || !near.any() {
-                break (tau, last, place, ahead);
+                break (tau, last, time, state, ahead);
             }
             halvings += 1;
             size = near.select(n(0.5) * size, size);
         };
-        if self.settings.corrects {
-            self.register.correct(self.dynamics, &mut place);
-        } else {
-            place.normalise();
-        }
-        let stands = place
-            .t
-            .equals(start)
-            .and(place.t_remainder.equals(start_remainder));
+        let mut level = self.register.level();
+        let displacement = state.x - self.register.state.x;
+        let how = (self.settings.corrects, used);
+        state = level.reached(self.dynamics, time, state, &displacement, how);
+        let stands = time.value.equals(start.value);
+        let stands = stands.and(time.remainder.equals(start.remainder));
         let moves = tau.above(n(0.0)).and(stands.not());
-        let mut hard = ahead.hard.or(is_finite(&place).not()).or(moves.not());
+        let mut hard = ahead.hard.or(is_finite(&state).not()).or(moves.not());
         hard = hard.or(out_of_range);
         if let Some(barred) = entry.barred {
             hard = hard.or(barred);
         }
         let moved = hard.or(ahead.crosses).not();
-        self.register.move_to(moved, &place);
+        self.register.move_to(moved, &(time, state));
         self.register.before = moved.select(wanted, self.register.before);
-        self.register.steps += moved.select(n(1.0), n(0.0));
+        let step = moved.select(n(1.0), n(0.0));
+        self.register.steps += step;
+        self.register.since += step;
+        let many = self.register.since.equals(n(RESCALING as f64));
+        if many.any() {
+            let before = level.scale;
+            level.rescale(self.dynamics, time.value, &self.register.state);
+            level.scale = many.select_vector(&level.scale, &before);
+            self.register.keep(&level);
+            self.register.since = many.select(n(0.0), self.register.since);
+        }
+        self.register.from = ahead.from;
         self.register.elapsed = ahead.elapsed;
         self.register.tau = tau;
         let crosses = (ahead.crosses, ahead.interface);
@@ -306,57 +306,47 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
 
     /// What the lanes meet in steps over `tau` that end at a place.
     #[inline(always)]
-    fn look_ahead(&self, tau: Wide, place: &Place<N>, active: Option<usize>) -> Ahead {
-        let none = Mask::all(false);
+    fn look_ahead(
+        &self,
+        tau: Wide,
+        (time, state): (Time<Wide>, &State<N, Wide>),
+        active: Option<usize>,
+    ) -> Ahead {
+        let none = WideMask::all_are(false);
+        let zero = Wide::from_f64(0.0);
         let mut ahead = Ahead {
             hard: none,
             crosses: none,
-            elapsed: Wide::from_f64(0.0),
-            interface: Wide::from_f64(0.0),
+            from: zero,
+            elapsed: zero,
+            interface: zero,
         };
         if !<F::Guards as Guards<Wide, N>>::MAY_END {
             return ahead;
         }
-        let field = self.dynamics.vector_field(place.t, &place.x);
-        let (t, solution) = (self.register.t, self.series.as_ref());
-        let first = first_switching::<_, F, GuardsUnrolled<_, F, N, M>, N, M, COEFFICIENTS>(
-            self.dynamics,
-            t,
-            solution,
-            1.0,
-        );
+        let field = self.dynamics.vector_field(time.value, &state.x);
+        let series = self.first_switching();
+        let ends = Ends {
+            tau,
+            decay: self.settings.decay,
+        };
         for &(interface, side) in self.sides() {
-            let sign = Wide::from_f64(side.sign());
-            let series = first.as_ref()[interface].map(|c| sign * c);
             let guards = self.dynamics.guards();
-            let value = guards.switching_function(interface, place.t, &place.x);
-            let (by_time, gradient) = guards.switching_gradient(interface, place.t, &place.x);
-            let slope = (0..N).fold(by_time, |sum, i| gradient[i].fused(field[i], sum));
-            let end = (sign * value, sign * slope);
-            let active = active == Some(interface);
-            let seen = course(&series, end, tau, self.settings.decay, active);
+            let value = guards.switching_function(interface, time.value, &state.x);
+            let (by_time, gradient) = guards.switching_gradient(interface, time.value, &state.x);
+            let end = (value, by_time + dot(&gradient, &field));
+            let (cubic, bounds) = ends.cubic(&series.as_ref()[interface], end, side.sign());
+            let is_active = active == Some(interface);
+            let seen = cubic.courses(bounds, is_active, self.register.used());
             ahead.hard = ahead.hard.or(seen.free.or(seen.falls).not());
             // one crossing or the other may come first
             ahead.hard = ahead.hard.or(seen.falls.and(ahead.crosses));
             ahead.crosses = ahead.crosses.or(seen.falls);
-            ahead.elapsed = seen.falls.select(seen.elapsed, ahead.elapsed);
+            ahead.from = seen.falls.select(seen.from, ahead.from);
+            ahead.elapsed = seen.falls.select(seen.at, ahead.elapsed);
             let interface = Wide::from_f64(interface as f64);
             ahead.interface = seen.falls.select(interface, ahead.interface);
         }
         ahead
     }
-}
-
-/// m^(−1/k) for m > 0 in every lane; see [`crate::expansion::polynomial::inverse_root`]. Half of
-/// the bits are enough for a step, and are multiplied by one instruction.
-#[inline(always)]
-fn inverse_root(m: Wide, k: usize) -> Wide {
-    const ONE: i64 = 1023 << 52;
-    let inverse = (1i64 << 31) / k as i64;
-    let mut root = m;
-    for root in &mut root.0 {
-        let logarithm = (ONE - root.to_bits() as i64) >> 32;
-        *root = f64::from_bits((ONE + ((logarithm * inverse) << 1)) as u64);
-    }
-    root
 }

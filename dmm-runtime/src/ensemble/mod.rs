@@ -5,9 +5,7 @@
 
 mod batch;
 mod crossing;
-mod ends;
 mod kernel;
-mod level;
 mod pool;
 mod register;
 mod trajectory;
@@ -71,8 +69,10 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// [`Taylor`](crate::Taylor) integrates four trajectories at once in the lanes of vector
 /// registers, each with steps and transitions of its own, where the processor has what that takes
 /// (x86-64 with AVX2 and FMA, aarch64; found out when the program runs). They are of order 18 at
-/// every tolerance; results are as accurate as those of an [`Integrator`], but not the same to
-/// the last bits. The other schemes, and systems with a [`Condition`](crate::Condition), are integrated
+/// every tolerance, by the code of a single trajectory: where that order is [`Taylor`]'s too, from
+/// 2·10⁻¹² up to 6·10⁻⁸, and the program is compiled for fused operations, results are those of an
+/// [`Integrator`] to the last bit, but for rare steps next to an interface. Otherwise they are as
+/// accurate. The other schemes, and systems with a [`Condition`](crate::Condition), are integrated
 /// one trajectory at a time, on all cores.
 ///
 /// ```

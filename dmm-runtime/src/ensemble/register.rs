@@ -1,12 +1,16 @@
 //! The trajectories in the lanes of a register.
 
-use crate::arithmetic::Scalar;
-use crate::arithmetic::lanes::{Lanes, Mask};
+use crate::arithmetic::lanes::{LaneMask, Lanes};
+use crate::arithmetic::masked::{Mask, Masked};
+use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::Vector;
 
 /// Trajectories that are stepped together: the vectors of four doubles that most processors
 /// have.
 pub(super) const WIDTH: usize = 4;
+
+/// A truth value of each trajectory.
+pub(super) type WideMask = LaneMask<WIDTH>;
 
 /// A scalar of each trajectory.
 pub(super) type Wide = Lanes<WIDTH>;
@@ -37,14 +41,14 @@ impl Leave {
 #[derive(Clone, Debug)]
 #[repr(C)]
 pub(super) struct Register<const N: usize> {
-    pub(super) x: Vector<Wide, N>,
-    pub(super) remainder: Vector<Wide, N>,
-    pub(super) t: Wide,
-    pub(super) t_remainder: Wide,
+    pub(super) time: Time<Wide>,
+    pub(super) state: State<N, Wide>,
     /// The size of the step before.
     pub(super) before: Wide,
-    /// ψ_ref, D and the noise of ψ; see [`crate::level`].
+    /// A [`Level`](crate::level::Level), its parts.
     pub(super) level: [Vector<Wide, N>; 3],
+    /// So long after the start of its step g begins to fall.
+    pub(super) from: Wide,
     /// About how long after the start of its step a lane meets an interface.
     pub(super) elapsed: Wide,
     /// The size of that step.
@@ -53,6 +57,8 @@ pub(super) struct Register<const N: usize> {
     pub(super) rate: Wide,
     /// Steps made.
     pub(super) steps: Wide,
+    /// Steps made since the scale of the level was taken.
+    pub(super) since: Wide,
     /// 1 in a lane that is not used, else 0.
     idle: Wide,
     /// A [`Leave`] as a number.
@@ -68,16 +74,16 @@ impl<const N: usize> Register<N> {
         let zero = Wide::from_f64(0.0);
         let vector = Vector::from_element(zero);
         Self {
-            x: vector,
-            remainder: vector,
-            t: zero,
-            t_remainder: zero,
+            time: Time::new(zero),
+            state: State::new(vector),
             before: zero,
             level: [vector; 3],
+            from: zero,
             elapsed: zero,
             tau: zero,
             rate: zero,
             steps: zero,
+            since: zero,
             idle: zero,
             leave: zero,
             interface: zero,
@@ -97,7 +103,7 @@ impl<const N: usize> Register<N> {
 
     /// The lanes in use.
     #[inline(always)]
-    pub(super) fn used(&self) -> Mask<WIDTH> {
+    pub(super) fn used(&self) -> WideMask {
         self.idle.equals(Wide::from_f64(0.0))
     }
 
@@ -106,9 +112,9 @@ impl<const N: usize> Register<N> {
     #[inline(always)]
     pub(super) fn note(
         &mut self,
-        hard: Mask<WIDTH>,
-        (crosses, interface): (Mask<WIDTH>, Wide),
-        finished: Mask<WIDTH>,
+        hard: WideMask,
+        (crosses, interface): (WideMask, Wide),
+        finished: WideMask,
     ) -> bool {
         let mark = Wide::from_f64;
         let not = self.idle * mark(0.0);
@@ -124,7 +130,7 @@ impl<const N: usize> Register<N> {
 
     /// Notes which lanes have reached the interface; the others need a closer look.
     #[inline(always)]
-    pub(super) fn note_crossed(&mut self, crossed: Mask<WIDTH>, interface: usize) {
+    pub(super) fn note_crossed(&mut self, crossed: WideMask, interface: usize) {
         let mark = Wide::from_f64;
         self.interface = mark(interface as f64);
         self.leave = crossed.select(mark(Leave::CROSSED), mark(Leave::HARD));

@@ -33,8 +33,12 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
     pub(super) memory: taylor::Memory,
     pub(super) accumulation: Accumulation,
     pub(super) statistics: Statistics,
-    /// ψ_ref, D and the noise of ψ in the region; see [`crate::level`].
+    /// The parts of the level in the region; see [`crate::level`].
     pub(super) level: [Vector<f64, N>; 3],
+    /// Steps made since the scale of the level was taken.
+    since: f64,
+    /// So long after the start of its step g begins to fall.
+    from: f64,
     /// About how long after the start of its step it meets an interface.
     pub(super) elapsed: f64,
     /// The size of that step.
@@ -62,6 +66,8 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             accumulation: Accumulation::new(Time::new(member.t0)),
             statistics: Statistics::default(),
             level: [Vector::zeros(); 3],
+            since: 0.0,
+            from: 0.0,
             elapsed: 0.0,
             tau: 0.0,
             rate: 0.0,
@@ -134,7 +140,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     /// Integrates until `until` or the first transition by the scalar method.
-    pub(super) fn go_on(&mut self, method: &Taylor, until: f64) -> Result<(), Error> {
+    pub(super) fn go_on(&mut self, method: &Taylor, until: f64) -> Result<Ended, Error> {
         self.judge()?;
         let active = Active::new(self.active.take());
         let mode = Sys::index(self.region);
@@ -145,20 +151,28 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             statistics: self.statistics,
             accumulation: self.accumulation,
         };
+        run.cursor.level = Some(self.kept_level());
         // as of a run that is not observed, whose code there is
         let ended = run.segment(&self.system, method, until, &mut ());
-        let active = ended.and_then(|ended| match ended {
-            Ended::AtGuard { guard, rate } => {
+        let ended = ended.and_then(|ended| {
+            if let Ended::AtGuard { guard, rate } = ended {
                 run.next_mode(&self.system, guard, rate)?;
-                Ok(Some(guard))
+                self.active = Some(guard);
             }
-            Ended::Finished | Ended::Stopped => Ok(None),
+            Ok(ended)
         });
         (self.time, self.state) = (run.cursor.time, run.cursor.state);
         (self.region, self.memory) = (run.region, run.memory);
         (self.statistics, self.accumulation) = (run.statistics, run.accumulation);
-        self.active = active?;
-        Ok(())
+        ended
+    }
+
+    /// The level that the lane had, for a segment that goes on.
+    fn kept_level(&self) -> Vec<[f64; 2]> {
+        let [reference, remainder, _] = &self.level;
+        let pairs = reference.iter().zip(remainder);
+        let count = self.system.of_region(self.region).conserved.len();
+        pairs.take(count).map(|(&high, &low)| [high, low]).collect()
     }
 }
 
@@ -167,15 +181,17 @@ impl<const N: usize> Register<N> {
     #[inline]
     pub(super) fn load<Sys: System<N>>(&mut self, lane: usize, from: &Trajectory<Sys, N>) {
         for i in 0..N {
-            self.x[i].0[lane] = from.state.x[i];
-            self.remainder[i].0[lane] = from.state.remainder[i];
+            self.state.x[i].0[lane] = from.state.x[i];
+            self.state.remainder[i].0[lane] = from.state.remainder[i];
             for (wide, level) in self.level.iter_mut().zip(&from.level) {
                 wide[i].0[lane] = level[i];
             }
         }
-        self.t.0[lane] = from.time.value;
-        self.t_remainder.0[lane] = from.time.remainder;
+        self.time.value.0[lane] = from.time.value;
+        self.time.remainder.0[lane] = from.time.remainder;
         self.before.0[lane] = from.memory.step;
+        self.since.0[lane] = from.since;
+        self.from.0[lane] = from.from;
         self.elapsed.0[lane] = from.elapsed;
         self.tau.0[lane] = from.tau;
         self.steps.0[lane] = 0.0;
@@ -184,7 +200,7 @@ impl<const N: usize> Register<N> {
     /// Tells a trajectory of the crossing in its lane, where it stays.
     #[inline]
     pub(super) fn pass_on<Sys: System<N>>(&mut self, lane: usize, to: &mut Trajectory<Sys, N>) {
-        to.time.value = self.t.0[lane];
+        to.time.value = self.time.value.0[lane];
         to.tau = self.tau.0[lane];
         to.rate = self.rate.0[lane];
         to.statistics.steps += self.steps.0[lane] as u64;
@@ -195,15 +211,17 @@ impl<const N: usize> Register<N> {
     #[inline]
     pub(super) fn store<Sys: System<N>>(&self, lane: usize, to: &mut Trajectory<Sys, N>) -> bool {
         for i in 0..N {
-            to.state.x[i] = self.x[i].0[lane];
-            to.state.remainder[i] = self.remainder[i].0[lane];
+            to.state.x[i] = self.state.x[i].0[lane];
+            to.state.remainder[i] = self.state.remainder[i].0[lane];
             for (level, wide) in to.level.iter_mut().zip(&self.level) {
                 level[i] = wide[i].0[lane];
             }
         }
-        to.time.value = self.t.0[lane];
-        to.time.remainder = self.t_remainder.0[lane];
+        to.time.value = self.time.value.0[lane];
+        to.time.remainder = self.time.remainder.0[lane];
         to.memory.step = self.before.0[lane];
+        to.since = self.since.0[lane];
+        to.from = self.from.0[lane];
         to.elapsed = self.elapsed.0[lane];
         to.tau = self.tau.0[lane];
         to.rate = self.rate.0[lane];

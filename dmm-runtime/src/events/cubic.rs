@@ -15,23 +15,24 @@
 //! (1 − p) C/15 each, p being the part before the split.
 
 use crate::arithmetic::Scalar;
+use crate::arithmetic::masked::{Mask, Masked};
 
 /// g and dg/dt at a point, positive inside the region.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Reading {
-    pub(crate) value: f64,
-    pub(crate) rate: f64,
+pub(crate) struct Reading<S = f64> {
+    pub(crate) value: S,
+    pub(crate) rate: S,
 }
 
 /// How far g may be from the cubic.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
+pub(crate) struct Bounds<S = f64> {
     /// C
-    pub(crate) truncation: f64,
+    pub(crate) truncation: S,
     /// The rounding error of g.
-    pub(crate) noise: f64,
+    pub(crate) noise: S,
     /// At the ends of the step g is not distinguished from zero below this.
-    pub(crate) ends: f64,
+    pub(crate) ends: S,
 }
 
 /// What the ends of a step tell of an interface: the course of g.
@@ -50,20 +51,29 @@ pub(crate) enum Course {
     Unknown,
 }
 
-/// The cubic by its Bernstein coefficients.
+/// The same lane by lane; what is neither free nor falls is unknown.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cubic {
-    start: Reading,
-    end: Reading,
-    tau: f64,
-    pub(crate) coefficients: [f64; 4],
+pub(crate) struct Courses<S: Masked> {
+    pub(crate) free: S::Mask,
+    pub(crate) falls: S::Mask,
+    pub(crate) from: S,
+    pub(crate) at: S,
 }
 
-impl Cubic {
+/// The cubic by its Bernstein coefficients.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cubic<S = f64> {
+    start: Reading<S>,
+    end: Reading<S>,
+    tau: S,
+    pub(crate) coefficients: [S; 4],
+}
+
+impl<S: Masked> Cubic<S> {
     /// That of a step over `tau`.
     #[inline(always)]
-    pub(crate) fn new(start: Reading, end: Reading, tau: f64) -> Self {
-        let third = tau * (1.0 / 3.0);
+    pub(crate) fn new(start: Reading<S>, end: Reading<S>, tau: S) -> Self {
+        let third = tau * S::from_f64(1.0 / 3.0);
         let inner_1 = start.rate.fused(third, start.value);
         let inner_2 = (-end.rate).fused(third, end.value);
         Self {
@@ -74,18 +84,110 @@ impl Cubic {
         }
     }
 
+    /// Whether g starts inside, and whether the interface is not reached.
+    #[inline(always)]
+    fn is_free(&self, bounds: Bounds<S>, is_active: bool) -> (S::Mask, S::Mask) {
+        let [b0, b1, b2, b3] = self.coefficients;
+        let rest = bounds.rest();
+        let starts_inside = b0.above(bounds.ends);
+        let free = b1
+            .above(rest)
+            .and(b2.above(rest))
+            .and(b3.above(bounds.ends));
+        let counts = starts_inside.or(S::Mask::all_are(is_active));
+        (starts_inside, free.and(counts))
+    }
+
+    /// Whether g, if it starts inside, falls through zero.
+    #[inline(always)]
+    fn falls(&self, bounds: Bounds<S>) -> S::Mask {
+        let [b0, b1, b2, b3] = self.coefficients;
+        let slowest = (b0 - b1).min(b1 - b2).min(b2 - b3);
+        let ends_outside = b3.above(-bounds.ends).not();
+        ends_outside.and(slowest.above(bounds.rest() + bounds.noise))
+    }
+
+    /// What is certain about the step in every lane that is `used`; see [`Cubic::course`].
+    #[inline(always)]
+    pub(crate) fn courses(&self, bounds: Bounds<S>, is_active: bool, used: S::Mask) -> Courses<S> {
+        let zero = S::from_f64(0.0);
+        let (starts_inside, free) = self.is_free(bounds, is_active);
+        let falls = self.falls(bounds).and(starts_inside).and(free.not());
+        let mut courses = Courses {
+            free,
+            falls,
+            from: zero,
+            at: zero,
+        };
+        if used.and(falls).any() {
+            courses.at = fall(self.start, self.end, self.tau);
+        }
+        let counts = starts_inside.or(S::Mask::all_are(is_active));
+        let unknown = free.or(falls).not().and(used).and(counts);
+        if unknown.any() {
+            self.courses_of_parts(bounds, unknown, &mut courses);
+        }
+        courses
+    }
+
+    /// The same on both sides of a place in between, in the lanes that are `unknown`.
+    #[inline(always)]
+    fn courses_of_parts(&self, bounds: Bounds<S>, mut unknown: S::Mask, courses: &mut Courses<S>) {
+        let n = S::from_f64;
+        let [b0, b1, b2, b3] = self.coefficients;
+        let off = bounds.truncation * n(1.0 / 15.0);
+        let rest = off + bounds.noise;
+        for at in [0.75, 0.5, 0.25] {
+            let between = |a: S, b: S| (b - a).fused(n(at), a);
+            let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
+            let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
+            let split = between(left_2, right_1);
+            let counts = unknown.and(left_1.min(left_2).min(split).above(rest));
+            let stays = right_1.min(right_2).above(rest).and(b3.above(bounds.ends));
+            let free = counts.and(stays);
+            let after = 1.0 - at;
+            let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
+            let bound = off.fused(n(after), n(2.0) * bounds.noise);
+            let leaves = b3.at_most(-bounds.ends).and(slowest.above(bound));
+            let falls = counts.and(leaves).and(free.not());
+            if falls.any() {
+                let tau = n(after) * self.tau;
+                let start = Reading {
+                    value: split,
+                    rate: n(3.0) * (right_1 - split) / tau,
+                };
+                let from = n(at) * self.tau;
+                courses.from = falls.select(from, courses.from);
+                courses.at = falls.select(from + fall(start, self.end, tau), courses.at);
+            }
+            courses.free = courses.free.or(free);
+            courses.falls = courses.falls.or(falls);
+            unknown = unknown.and(free.or(falls).not());
+            if !unknown.any() {
+                break;
+            }
+        }
+    }
+}
+
+impl<S: Scalar> Bounds<S> {
+    /// How far an inner Bernstein coefficient may be off.
+    #[inline(always)]
+    fn rest(self) -> S {
+        self.truncation.fused(S::from_f64(1.0 / 12.0), self.noise)
+    }
+}
+
+impl Cubic {
     /// What is certain about the step. The guard `is_active` if the step starts on it; that root does
     /// not count.
     #[inline(always)]
     pub(crate) fn course(&self, bounds: Bounds, is_active: bool) -> Course {
-        let [b0, b1, b2, b3] = self.coefficients;
-        let rest = bounds.truncation.fused(1.0 / 12.0, bounds.noise);
-        let starts_inside = b0 > bounds.ends;
-        if b1 > rest && b2 > rest && b3 > bounds.ends && (starts_inside || is_active) {
+        let (starts_inside, is_free) = self.is_free(bounds, is_active);
+        if is_free {
             return Course::Free;
         }
-        let slowest = (b0 - b1).min(b1 - b2).min(b2 - b3);
-        if starts_inside && b3 <= -bounds.ends && slowest > rest + bounds.noise {
+        if starts_inside && self.falls(bounds) {
             return Course::Falls {
                 from: 0.0,
                 at: fall(self.start, self.end, self.tau),
@@ -101,36 +203,23 @@ impl Cubic {
     /// The same on both sides of a place in between.
     #[inline(never)]
     fn course_of_parts(&self, bounds: Bounds) -> Course {
-        let [b0, b1, b2, b3] = self.coefficients;
-        let off = bounds.truncation * (1.0 / 15.0);
-        for at in [0.75, 0.5, 0.25] {
-            let between = |a: f64, b: f64| (b - a).fused(at, a);
-            let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
-            let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
-            let split = between(left_2, right_1);
-            let rest = off + bounds.noise;
-            if left_1.min(left_2).min(split) <= rest {
-                continue;
-            }
-            if right_1.min(right_2) > rest && b3 > bounds.ends {
-                return Course::Free;
-            }
-            let after = 1.0 - at;
-            let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
-            if b3 <= -bounds.ends && slowest > off.fused(after, 2.0 * bounds.noise) {
-                let tau = after * self.tau;
-                let start = Reading {
-                    value: split,
-                    rate: 3.0 * (right_1 - split) / tau,
-                };
-                let from = at * self.tau;
-                return Course::Falls {
-                    from,
-                    at: from + fall(start, self.end, tau),
-                };
-            }
+        let mut courses = Courses {
+            free: false,
+            falls: false,
+            from: 0.0,
+            at: 0.0,
+        };
+        self.courses_of_parts(bounds, true, &mut courses);
+        match courses {
+            Courses { free: true, .. } => Course::Free,
+            Courses {
+                falls: true,
+                from,
+                at,
+                ..
+            } => Course::Falls { from, at },
+            _ => Course::Unknown,
         }
-        Course::Unknown
     }
 
     /// Whether g rises throughout.
@@ -151,24 +240,22 @@ impl Cubic {
         let (square, cube) = (3.0 * rise - 2.0 * d0 - d3, d0 + d3 - 2.0 * rise);
         let double = b0 + 2.0 * (d0 + 2.0 * (square + 2.0 * cube));
         let triple = b0 + 3.0 * (d0 + 3.0 * (square + 3.0 * cube));
-        double.min(triple) > TWICE * bounds.truncation.fused(1.0 / 12.0, bounds.noise)
+        double.min(triple) > TWICE * bounds.rest()
     }
 }
 
 /// About where a function falls through zero, from its values and slopes at 0 and `tau`: the
 /// cubic of the inverse function, or where that leaves the step, the chord.
 #[inline(always)]
-fn fall(start: Reading, end: Reading, tau: f64) -> f64 {
+fn fall<S: Masked>(start: Reading<S>, end: Reading<S>, tau: S) -> S {
+    let n = S::from_f64;
     let change = end.value - start.value;
     let u = -start.value / change;
-    let v = 1.0 - u;
+    let v = n(1.0) - u;
     let cubic =
-        tau * (u * u * (3.0 - 2.0 * u)) + change * (u * v) * (v / start.rate - u / end.rate);
-    if cubic > 0.0 && cubic <= tau {
-        cubic
-    } else {
-        tau * u
-    }
+        tau * (u * u * (n(3.0) - n(2.0) * u)) + change * (u * v) * (v / start.rate - u / end.rate);
+    let within = cubic.above(n(0.0)).and(cubic.above(tau).not());
+    within.select(cubic, tau * u)
 }
 
 #[cfg(test)]

@@ -10,9 +10,9 @@
 //! does no harm, a is the largest of three: |g₄| h⁴, |g₅| h⁵/φ, and the difference of the
 //! coefficients of order 2 of g and H, which is Σ (j − 3) gⱼ hʲ.
 
-use crate::arithmetic::Scalar;
+use crate::arithmetic::masked::Masked;
+use crate::arithmetic::noise;
 use crate::events::cubic::{Bounds, Course, Cubic, Reading};
-use crate::events::switching::NOISE;
 use crate::expansion::jet::FIRST;
 
 /// The estimate of the terms that are not known counts so many times.
@@ -20,9 +20,9 @@ const MARGIN: f64 = 1.5;
 
 /// A step as the interfaces see it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Ends {
+pub(crate) struct Ends<S = f64> {
     /// The size of the step.
-    pub(crate) tau: f64,
+    pub(crate) tau: S,
     /// How the coefficients fall off.
     pub(crate) decay: Decay,
 }
@@ -47,20 +47,20 @@ impl Decay {
     }
 }
 
-impl Ends {
-    /// What is certain about an interface, from the first coefficients of g, its value and its
-    /// slope at the end, and the sign of g in the region. The guard `is_active` if the step starts on it; that
-    /// root does not count.
+impl<S: Masked> Ends<S> {
+    /// The cubic of an interface, positive in the region where g has this sign, and how far g may
+    /// be from it: from the first coefficients of g, its value and its slope at the end.
     #[inline(always)]
-    pub(crate) fn course(
+    pub(crate) fn cubic(
         self,
-        c: &[f64; FIRST],
-        (value, slope): (f64, f64),
+        c: &[S; FIRST],
+        (value, slope): (S, S),
         sign: f64,
-        is_active: bool,
-    ) -> Course {
+    ) -> (Cubic<S>, Bounds<S>) {
         let Self { tau, decay } = self;
-        let reading = |value: f64, rate: f64| Reading {
+        let n = S::from_f64;
+        let sign = n(sign);
+        let reading = |value: S, rate: S| Reading {
             value: sign * value,
             rate: sign * rate,
         };
@@ -68,16 +68,34 @@ impl Ends {
         let [b0, b1, b2, b3] = cubic.coefficients;
         let square = tau * tau;
         // b₀ − 2b₁ + b₂ is a third of H's coefficient of order 2
-        let bend = 3.0 * (b0 - (b1 + b1) + b2) - sign * c[2] * square;
+        let bend = n(3.0) * (b0 - (b1 + b1) + b2) - sign * c[2] * square;
         let fourth = square * square;
         let (fourth_term, fifth_term) = (c[4].abs() * fourth, c[5].abs() * (fourth * tau));
-        let others = fourth_term.max(fifth_term * decay.inverse).max(bend.abs());
-        let known = 3.0f64.fused(fifth_term, fourth_term);
+        let others = fourth_term
+            .max(fifth_term * n(decay.inverse))
+            .max(bend.abs());
+        let known = n(3.0).fused(fifth_term, fourth_term);
         let bounds = Bounds {
-            truncation: decay.rest.fused(others, known),
-            noise: NOISE * f64::ROUNDING * (b0.abs() + b3.abs()),
-            ends: 0.0,
+            truncation: n(decay.rest).fused(others, known),
+            noise: noise(b0.abs() + b3.abs()),
+            ends: n(0.0),
         };
+        (cubic, bounds)
+    }
+}
+
+impl Ends {
+    /// What is certain about an interface. The guard `is_active` if the step starts on it; that
+    /// root does not count.
+    #[inline(always)]
+    pub(crate) fn course(
+        self,
+        c: &[f64; FIRST],
+        end: (f64, f64),
+        sign: f64,
+        is_active: bool,
+    ) -> Course {
+        let (cubic, bounds) = self.cubic(c, end, sign);
         cubic.course(bounds, is_active)
     }
 }

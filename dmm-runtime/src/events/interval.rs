@@ -228,10 +228,7 @@ assign! {
 }
 
 impl Scalar for Interval {
-    const ROUNDING: Self = Self {
-        low: f64::ROUNDING,
-        high: f64::ROUNDING,
-    };
+    const ROUNDING: f64 = f64::ROUNDING;
 
     #[inline]
     fn from_f64(value: f64) -> Self {

@@ -1,8 +1,7 @@
 //! An affine switching function g along the power series of a solution, which it follows: the first
 //! root of its own series in a step.
 
-use super::switching::NOISE;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::noise;
 use crate::expansion::polynomial::{Roots, dips, first_root, root};
 
 /// The coefficients of g, positive in the mode.
@@ -33,7 +32,7 @@ impl<const P: usize> Series<P> {
         if !coefficients.iter().all(|c| c.is_finite()) {
             return None;
         }
-        let leaves = coefficients[0] <= NOISE * f64::ROUNDING * size && coefficients[1] > 0.0;
+        let leaves = coefficients[0] <= noise(size) && coefficients[1] > 0.0;
         let divides = is_active || leaves;
         Some(Self {
             coefficients,
@@ -47,7 +46,7 @@ impl<const P: usize> Series<P> {
     }
 
     fn noise(&self) -> f64 {
-        NOISE * f64::ROUNDING * self.size
+        noise(self.size)
     }
 
     /// Whether g comes nearer to zero than `part` of its size before `horizon` and returns.

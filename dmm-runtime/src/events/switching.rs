@@ -2,13 +2,10 @@
 
 use super::Path;
 use super::interval::Interval;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, noise};
 use crate::contract::{Guards, Vector};
 use crate::expansion::jet::FIRST;
 use crate::series::InUnits;
-
-/// g this many rounding errors of its terms away from zero is not distinguished from it.
-pub(crate) const NOISE: f64 = 16.0;
 
 /// Coefficients that are enclosed: g, its slope, and those of order 2 to 4.
 pub(super) const ENCLOSED: usize = 5;
@@ -100,6 +97,6 @@ impl<B: Guards<f64, N>, const N: usize> Switching<N> for Enclosed<'_, B, N> {
         for (gradient, x) in gradient.iter().zip(x) {
             size += (gradient * x).abs();
         }
-        NOISE * f64::ROUNDING * size
+        noise(size)
     }
 }

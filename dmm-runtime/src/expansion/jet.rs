@@ -111,7 +111,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
 }
 
 /// The first coefficients of every guard of a mode.
-type FirstSeries<S, F, const N: usize, const M: usize> =
+pub(crate) type FirstSeries<S, F, const N: usize, const M: usize> =
     <<F as Dynamics<S, N, M>>::Guards as Guards<S, N>>::Series<FIRST>;
 
 /// The same as they advance.
@@ -212,7 +212,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     }
 
     /// The solution's coefficients at (t, x).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn expand(&mut self, dynamics: &F, t: f64, x: &Vector<f64, N>) {
         let end = self.order + 1;
         let unit = self.unit();

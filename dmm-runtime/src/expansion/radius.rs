@@ -6,7 +6,8 @@
 //! the radius, so that no coefficient is far from the state.
 
 use super::jet::Jet;
-use super::polynomial::{inverse_exponent, inverse_root};
+use super::polynomial::inverse_root;
+use crate::arithmetic::masked::{Mask, Masked};
 use crate::series::Unroll;
 
 use crate::contract::Dynamics;
@@ -40,13 +41,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
             return self.first_step(dynamics, t, fraction);
         }
         let before = self.in_units(before);
-        let (mut last, mut second) = (0.0f64, 0.0f64);
-        for c in self.coefficients() {
-            let size = c[0].abs() + c[1].abs() * before;
-            let scale = 1.0 / size.max(f64::MIN_POSITIVE);
-            last = last.max(c[order].abs() * scale);
-            second = second.max(c[order - 1].abs() * scale);
-        }
+        let (last, second) = decisive_terms(self.coefficients(), order, before);
         // those of higher order are not, yet
         if !(last > SMALLEST_DECISIVE && last < LARGEST_DECISIVE) {
             return self.first_step(dynamics, t, fraction);
@@ -57,8 +52,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     /// The order of the later coefficient that decides on the step.
     #[inline(always)]
     fn decisive(&self) -> usize {
-        let order = self.order();
-        order - if order > 12 { 4 } else { 2 }
+        decisive(self.order())
     }
 
     /// The step without one before, or where coefficients leave the range of doubles.
@@ -202,10 +196,35 @@ pub(crate) fn is_polynomial(k: usize, last: f64, smallest: f64) -> bool {
     smallest * last.powf((k + 1) as f64 / k as f64) > LOST
 }
 
+/// The coefficients of `order` and of the one below, each component's relative to |x₀| + |x₁| h with
+/// the step h `before`: the largest.
+#[inline(always)]
+pub(crate) fn decisive_terms<S: Masked, const P: usize>(
+    components: &[[S; P]],
+    order: usize,
+    before: S,
+) -> (S, S) {
+    let n = S::from_f64;
+    let (mut last, mut second) = (n(0.0), n(0.0));
+    for c in components {
+        let size = c[0].abs() + c[1].abs() * before;
+        let scale = n(1.0) / size.max(n(f64::MIN_POSITIVE));
+        last = last.max(c[order].abs() * scale);
+        second = second.max(c[order - 1].abs() * scale);
+    }
+    (last, second)
+}
+
+/// The order of the later coefficient that decides on a step of `order`.
+#[inline(always)]
+pub(crate) const fn decisive(order: usize) -> usize {
+    order - if order > 12 { 4 } else { 2 }
+}
+
 /// The smaller of cₖ^(−1/k) for the last two coefficients.
 #[inline(always)]
-fn radius(order: usize, last: f64, second: f64) -> f64 {
-    let last = inverse_root(last, inverse_exponent(order));
-    let second = inverse_root(second, inverse_exponent(order - 1));
-    if second < last { second } else { last }
+pub(crate) fn radius<S: Masked>(order: usize, last: S, second: S) -> S {
+    let last = inverse_root(last, order);
+    let second = inverse_root(second, order - 1);
+    last.above(second).select(second, last)
 }

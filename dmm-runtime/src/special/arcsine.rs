@@ -5,7 +5,7 @@
 //! with p = cos α = √(1 − a²) and q = cos β = √(1 − b²). No term of it cancels anywhere.
 
 use super::arc::{CLOSE, arc_remainder};
-use super::double::Double;
+use crate::arithmetic::double::Double;
 use crate::arithmetic::error_free::two_product;
 
 /// The divided difference of the arc sine.

@@ -6,7 +6,7 @@
 //! but only where |b − a| ≥ 2 and θ is near π/2, and it is θ that must be accurate.
 
 use super::arc::{CLOSE, arc_remainder};
-use super::double::Double;
+use crate::arithmetic::double::Double;
 use crate::arithmetic::error_free::two_product;
 
 /// Arguments beyond which their squares may overflow.

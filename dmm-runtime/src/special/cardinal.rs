@@ -2,8 +2,8 @@
 //!
 //! Power series near 0, the definition elsewhere.
 
-use super::double::Double;
 use super::series::power_series;
+use crate::arithmetic::double::Double;
 
 /// u² up to which a few terms of the series do: consecutive steps of an integration.
 const HOT: f64 = 1.0 / 16.0;

@@ -5,7 +5,7 @@
 //! step alone. What the sum a + b loses in rounding is known exactly and put back.
 
 use super::arc::{CLOSE, arc_remainder};
-use super::double::Double;
+use crate::arithmetic::double::Double;
 
 /// a + b between which every intermediate result of a divided difference is a normal number.
 const TINY: f64 = 1e-300;

@@ -11,12 +11,12 @@
 //! squared by it.
 
 use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
-use std::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
 
-use super::double::Double;
 use super::series::power_series;
 use crate::arithmetic::Scalar;
-use crate::special;
+use crate::arithmetic::double::{Double, Pair};
+use crate::arithmetic::error_free::split_error;
+use crate::arithmetic::masked::{Mask, Masked};
 
 /// What ln 2 as a double lacks: the next 53 bits.
 const LN_2_LOW: f64 = 2.319_046_813_846_299_6e-17;
@@ -45,18 +45,10 @@ const INVERSE_FACTORIALS: [(f64, f64); TERMS] = {
     table
 };
 
-/// 1 − a·b, where the product is almost 1: exact (Dekker 1971).
+/// 1 − a·b, where the product is almost 1: exact.
 const fn remainder(a: f64, b: f64) -> f64 {
-    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
-    const fn high(v: f64) -> f64 {
-        let c = SPLITTER * v;
-        c - (c - v)
-    }
     let p = a * b;
-    let (ah, bh) = (high(a), high(b));
-    let (al, bl) = (a - ah, b - bh);
-    let error = ((ah * bh - p) + ah * bl + al * bh) + al * bl;
-    (1.0 - p) - error
+    (1.0 - p) - split_error(a, b, p)
 }
 
 /// Every other 1/n! of the doubles, the even ones from `first` = 0 on, the odd ones from 1 on.
@@ -119,70 +111,8 @@ impl Double {
     }
 }
 
-impl AddAssign for Double {
-    #[inline]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Double {
-    #[inline]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Double {
-    #[inline]
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
-
-impl DivAssign for Double {
-    #[inline]
-    fn div_assign(&mut self, other: Self) {
-        *self = *self / other;
-    }
-}
-
-/// The functions that have the digits of a double.
-macro_rules! as_doubles {
-    ($($function:ident($($other:ident)?))*) => {$(
-        fn $function(self $(, $other: Self)?) -> Self {
-            Self::from(special::$function(self.high $(, $other.high)?))
-        }
-    )*};
-}
-
-impl Scalar for Double {
-    const ROUNDING: Self = Self::new(1.0 / (1_u128 << 104) as f64, 0.0);
-
-    #[inline]
-    fn from_f64(value: f64) -> Self {
-        Self::from(value)
-    }
-
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self.high
-    }
-
-    #[inline]
-    fn fused(self, b: Self, c: Self) -> Self {
-        self * b + c
-    }
-
-    #[inline]
-    fn abs(self) -> Self {
-        if self.high < 0.0 { -self } else { self }
-    }
-
-    fn sqrt(self) -> Self {
-        self.root()
-    }
-
+/// The elementary functions, for some of which others are named.
+impl Double {
     fn exp(self) -> Self {
         let k = (self.high * LOG2_E).round();
         if k.is_nan() || k.abs() >= 1020.0 {
@@ -198,7 +128,7 @@ impl Scalar for Double {
         if !y.is_finite() {
             return Self::from(y);
         }
-        let ratio = self * Scalar::exp(Self::from(-y));
+        let ratio = self * Self::exp(Self::from(-y));
         Self::from(y) + (ratio - Self::from(1.0))
     }
 
@@ -219,12 +149,12 @@ impl Scalar for Double {
         if self.high.abs() <= 1.0 {
             return self.hyperbolic().1;
         }
-        let e = Scalar::exp(self);
+        let e = Self::exp(self);
         Self::from(0.5) * (e - Self::from(1.0) / e)
     }
 
     fn cosh(self) -> Self {
-        let e = Scalar::exp(self);
+        let e = Self::exp(self);
         Self::from(0.5) * (e + Self::from(1.0) / e)
     }
 
@@ -233,7 +163,7 @@ impl Scalar for Double {
         if self.high.abs() > 40.0 {
             return Self::from(1.0_f64.copysign(self.high));
         }
-        Scalar::sinh(self) / Scalar::cosh(self)
+        Self::sinh(self) / Self::cosh(self)
     }
 
     fn asin(self) -> Self {
@@ -247,7 +177,7 @@ impl Scalar for Double {
     }
 
     fn acos(self) -> Self {
-        Self::FRAC_PI_2 - Scalar::asin(self)
+        Self::FRAC_PI_2 - Self::asin(self)
     }
 
     fn atan(self) -> Self {
@@ -258,9 +188,69 @@ impl Scalar for Double {
         let (c, s) = Self::from(y).circular();
         Self::from(y) + (self * c - s) / (c + self * s)
     }
+}
+
+/// The functions of [`Double`], by lane; behind the semicolon those of a double, by lane.
+macro_rules! by_lane {
+    ($($function:ident)*; $($of_double:ident($($other:ident)?))*) => {
+        $(
+            #[inline]
+            fn $function(self) -> Self {
+                self.each(Double::$function)
+            }
+        )*
+        $(
+            fn $of_double(self $(, $other: Self)?) -> Self {
+                Self::from(self.high.$of_double($($other.high)?))
+            }
+        )*
+    };
+}
+
+impl<S: Masked> Scalar for Pair<S> {
+    const ROUNDING: f64 = 1.0 / (1_u128 << 104) as f64;
+
+    #[inline]
+    fn from_f64(value: f64) -> Self {
+        Self::from(S::from_f64(value))
+    }
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.high.to_f64()
+    }
+
+    #[inline]
+    fn lane(self, lane: usize) -> f64 {
+        self.high.lane(lane)
+    }
+
+    #[inline]
+    fn by_lane(value: impl Fn(usize) -> f64) -> Self {
+        Self::from(S::by_lane(value))
+    }
+
+    #[inline]
+    fn fused(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        let negative = S::from_f64(0.0).above(self.high);
+        Self::new(
+            negative.select(-self.high, self.high),
+            negative.select(-self.low, self.low),
+        )
+    }
+
+    fn sqrt(self) -> Self {
+        self.each(Double::root)
+    }
 
     fn powi(self, n: i32) -> Self {
-        let mut power = Self::from(1.0);
+        let one = Self::from_f64(1.0);
+        let mut power = one;
         let (mut base, mut left) = (self, n.unsigned_abs());
         while left > 0 {
             if left % 2 == 1 {
@@ -269,22 +259,19 @@ impl Scalar for Double {
             base *= base;
             left /= 2;
         }
-        if n < 0 {
-            Self::from(1.0) / power
-        } else {
-            power
-        }
+        if n < 0 { one / power } else { power }
     }
 
     fn powf(self, v: Self) -> Self {
-        Scalar::exp(v * Scalar::ln(self))
+        (v * self.ln()).exp()
     }
 
     fn exp_product(self, b: Self) -> Self {
-        Scalar::exp(self * b)
+        (self * b).exp()
     }
 
-    as_doubles! {
+    by_lane! {
+        exp ln sin cos tan sinh cosh tanh asin acos atan;
         sinc() sinc_prime() sinhc() sinhc_prime()
         ln_dd(b) ln_dd_prime(b) asin_dd(b) asin_dd_prime(b) atan_dd(b) atan_dd_prime(b)
     }

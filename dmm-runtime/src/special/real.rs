@@ -1,6 +1,7 @@
 //! Doubles as scalars.
 
 use crate::arithmetic::Scalar;
+use crate::arithmetic::error_free::HAS_FUSED;
 use crate::special;
 
 /// Implements functions of [`Scalar`] by those of the same name in a module or of a type.
@@ -14,7 +15,7 @@ macro_rules! forward {
 }
 
 impl Scalar for f64 {
-    const ROUNDING: Self = f64::EPSILON / 2.0;
+    const ROUNDING: f64 = f64::EPSILON / 2.0;
 
     #[inline]
     fn from_f64(value: f64) -> Self {
@@ -28,7 +29,7 @@ impl Scalar for f64 {
 
     #[inline]
     fn fused(self, b: Self, c: Self) -> Self {
-        if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
+        if HAS_FUSED {
             self.mul_add(b, c)
         } else {
             self * b + c

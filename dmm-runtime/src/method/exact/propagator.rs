@@ -9,9 +9,9 @@
 
 use crate::arithmetic::Scalar;
 use crate::arithmetic::State;
+use crate::arithmetic::double::Double;
 use crate::arithmetic::error_free::{two_product, two_sum};
 use crate::contract::Vector;
-use crate::special::double::Double;
 
 /// A matrix by rows.
 pub(crate) type Rows<T, const N: usize> = [[T; N]; N];

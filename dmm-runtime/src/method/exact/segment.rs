@@ -55,5 +55,5 @@ fn put_back<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
 ) -> Option<State<N>> {
     level.rescale(dynamics, time.value, &state);
     let strays = level.strays(dynamics, time, &state);
-    strays.then(|| level.reached(dynamics, time, state, &(state.x - before), true))
+    strays.then(|| level.reached(dynamics, time, state, &(state.x - before), (true, true)))
 }

@@ -4,9 +4,9 @@
 use super::propagator::{Coefficients, Rows};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::State;
+use crate::arithmetic::double::Double;
 use crate::contract::Vector;
 use crate::expansion::polynomial::increment;
-use crate::special::double::Double;
 
 /// Terms: 5/4 of the lowest exponent is at most 0.3/‖A‖, and the first one left out below 10⁻²³ there.
 pub(super) const TERMS: usize = 16;

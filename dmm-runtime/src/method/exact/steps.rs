@@ -12,10 +12,9 @@ use super::crossing::Found;
 use super::segment::Segment;
 use super::step_sizes::{FIRST, StepSizes};
 use crate::arithmetic::linear::is_finite;
-use crate::arithmetic::{Scalar, State, Time};
+use crate::arithmetic::{State, Time, noise};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::events::cubic::{self, Bounds, Cubic, Reading};
-use crate::events::switching::NOISE;
 use crate::events::{Root, Series};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::unit_for;
@@ -233,7 +232,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let size = dynamics
                 .guards()
                 .switching_size(guard, self.cursor.time.value, x);
-            let noise = NOISE * f64::ROUNDING * (size + tau * sizes.rate_size(i, x));
+            let noise = noise(size + tau * sizes.rate_size(i, x));
             let bounds = Bounds {
                 truncation: fourth * fourth_power,
                 noise,

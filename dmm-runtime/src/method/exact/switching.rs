@@ -4,8 +4,8 @@
 use super::propagator::{Coefficients, times};
 use super::step_sizes::{FIRST, PARTS, StepSizes, Switching, TERMS};
 use crate::arithmetic::Scalar;
+use crate::arithmetic::double::Double;
 use crate::contract::Vector;
-use crate::special::double::Double;
 
 impl<const N: usize> StepSizes<N> {
     /// What is to be known of a switching function with these ∂ₜg and ∇g.

@@ -1,7 +1,6 @@
 //! What a Taylor step meets: by the ends of the step, or a shorter one, where they tell enough; else
 //! by all coefficients of g, or by enclosures of it.
 
-use super::crossing::Found;
 use super::segment::{Here, Segment};
 use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::{State, Time};
@@ -10,6 +9,7 @@ use crate::events::cubic::Course;
 use crate::events::ends::Ends;
 use crate::events::{Enclosed, Met, Path, Root, Search, Series};
 use crate::expansion::jet::Jet;
+use crate::level::Found;
 use crate::method::Sink;
 use crate::series::Unroll;
 

@@ -6,6 +6,8 @@ mod reach;
 mod segment;
 mod steps;
 
+pub(crate) use steps::{RESCALING, step_to};
+
 use super::{Cursor, Ended, Failure, InLanes, Method, Sink, check_tolerance};
 use crate::contract::Dynamics;
 use crate::error::Error;

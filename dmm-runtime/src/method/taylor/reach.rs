@@ -60,7 +60,13 @@ impl<D: Dynamics<f64, N, M>, const N: usize, const M: usize> Reach<'_, D, N, M> 
                 return Err(StepFailure::NotFinite.over(wanted));
             }
             let after = state.after(&increment);
-            *state = level.reached(dynamics, next, after, &increment, method.corrects_level());
+            *state = level.reached(
+                dynamics,
+                next,
+                after,
+                &increment,
+                (method.corrects_level(), true),
+            );
             (*time, before) = (next, wanted);
         }
         Ok(())

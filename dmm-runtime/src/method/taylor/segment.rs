@@ -41,7 +41,13 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let time = Time::new(t);
             let elapsed = time.since(here.time).max(0.0).min(tau);
             let state = here.state.after(&jet.increment(elapsed));
-            let state = level.reached(dynamics, time, state, &(state.x - here.state.x), corrects);
+            let state = level.reached(
+                dynamics,
+                time,
+                state,
+                &(state.x - here.state.x),
+                (corrects, true),
+            );
             self.sink.output(t, state.rounded());
         }
     }

@@ -2,19 +2,19 @@
 //! convergence as the tolerance allows.
 
 use super::ahead::{Ahead, Part};
-use super::crossing::Found;
 use super::segment::{Here, Segment};
 use crate::arithmetic::Time;
 use crate::arithmetic::linear::is_finite;
+use crate::arithmetic::masked::{Mask, Masked};
 use crate::contract::{Dynamics, Guards};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::OtherUnit;
-use crate::level::Level;
+use crate::level::{Found, Level};
 use crate::method::{Ended, Failure, Sink, StepFailure};
 use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
 
 /// Steps between adaptions of the level's correction to the size of the state.
-const RESCALING: u64 = 256;
+pub(crate) const RESCALING: u64 = 256;
 
 /// A segment with P coefficients, still to be chosen.
 pub(super) struct Choose<'a, D, S, const N: usize, const M: usize> {
@@ -115,9 +115,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let mut part = Part::WHOLE;
             let (tau, time, mut state) = loop {
                 let size = part.share * wanted;
-                let Some((tau, time)) = step_to(dynamics, here.time, size, (remaining, end)) else {
+                let (tau, time, _) = step_to(dynamics.is_autonomous(), here.time, size, end);
+                if !(tau > 0.0 && time != here.time) {
                     return Next::Not(size);
-                };
+                }
                 let state = here.state.after(&jet.increment(tau));
                 if !<D::Guards as Guards<f64, N>>::MAY_END {
                     break (tau, time, state);
@@ -133,7 +134,13 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             if self.sink.next_output().is_some() {
                 self.outputs_along::<P, M, D, U>(dynamics, &level, jet, here, (tau, time));
             }
-            state = level.reached(dynamics, time, state, &(state.x - here.state.x), corrects);
+            state = level.reached(
+                dynamics,
+                time,
+                state,
+                &(state.x - here.state.x),
+                (corrects, true),
+            );
             if !is_finite(&state.x) {
                 return Next::Not(tau);
             }
@@ -172,25 +179,31 @@ enum Next<const N: usize, const M: usize> {
     Lost(OtherUnit),
 }
 
-/// The size and the end of a step of about `wanted`; nothing if it is none.
+/// The size and the end of a step of about `wanted`, and whether it is the last one before `end`.
 #[inline(always)]
-fn step_to<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
-    dynamics: &D,
-    start: Time,
-    wanted: f64,
-    (remaining, end): (f64, f64),
-) -> Option<(f64, Time)> {
-    if wanted >= remaining {
-        let end = Time::new(end);
-        return Some((end.since(start), end));
+pub(crate) fn step_to<S: Masked>(
+    is_autonomous: bool,
+    start: Time<S>,
+    wanted: S,
+    end: S,
+) -> (S, Time<S>, S::Mask) {
+    let remaining = (end - start.value) - start.remainder;
+    let last = remaining.at_most(wanted);
+    let end = Time::new(end);
+    if last.all() {
+        return (end.since(start), end, last);
     }
-    let (tau, time) = match dynamics.is_autonomous() {
-        true => (wanted, start.after(wanted)),
+    let (mut tau, mut time) = if is_autonomous {
+        (wanted, start.after(wanted))
+    } else {
         // the formulas are evaluated at a double
-        false => {
-            let time = Time::new(start.value + wanted);
-            (time.since(start), time)
-        }
+        let time = Time::new(start.value + wanted);
+        (time.since(start), time)
     };
-    (tau > 0.0 && time != start).then_some((tau, time))
+    if last.any() {
+        tau = last.select(end.since(start), tau);
+        time.value = last.select(end.value, time.value);
+        time.remainder = last.select(end.remainder, time.remainder);
+    }
+    (tau, time, last)
 }

@@ -42,9 +42,14 @@ pub(super) fn method(
     let doc = format!(" {doc}");
     let name = format_ident!("{name}");
     let body = body(scope, function);
+    let inline = match function.quantity {
+        // what is not inlined does not compute in lanes, and of pairs this is much
+        Quantity::Conserved => quote!(#[inline(always)]),
+        _ => quote!(#[inline]),
+    };
     Some(quote! {
         #[doc = #doc]
-        #[inline]
+        #inline
         fn #name(&self, #arguments) -> #result { #body }
     })
 }

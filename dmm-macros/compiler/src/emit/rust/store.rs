@@ -75,7 +75,7 @@ impl<'a> Store<'a> {
     pub(super) fn converted(&self, scalar: &Ident, other: &Ident) -> TokenStream {
         let fields = self.parameters.values().chain(self.computed.values());
         quote! {
-            #(#fields: #other::from_f64(#scalar::to_f64(self.#fields)),)*
+            #(#fields: #other::by_lane(|lane| #scalar::lane(self.#fields, lane)),)*
             _scalar: ::core::marker::PhantomData,
         }
     }

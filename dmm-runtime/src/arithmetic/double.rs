@@ -6,52 +6,48 @@
 //! the sums in a divided difference whose rounding errors are put back.
 
 use std::f64::consts::FRAC_PI_2;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::arithmetic::Scalar;
-use crate::arithmetic::error_free::{two_product, two_sum};
+use super::Scalar;
+use super::error_free::two_sum;
+use super::masked::Masked;
 
 /// What π/2 as a double lacks: the next 53 bits.
 const FRAC_PI_2_LOW: f64 = 6.123_233_995_736_766e-17;
 
-/// An unevaluated sum of two doubles.
+/// An unevaluated sum of two scalars.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug, Default)]
-pub(crate) struct Double {
-    pub(crate) high: f64,
-    pub(crate) low: f64,
+pub(crate) struct Pair<S> {
+    pub(crate) high: S,
+    pub(crate) low: S,
 }
 
-impl Double {
-    pub(crate) const ONE: Self = Self::new(1.0, 0.0);
+/// An unevaluated sum of two doubles.
+pub(crate) type Double = Pair<f64>;
 
-    /// π/2
-    pub(super) const FRAC_PI_2: Self = Self::new(FRAC_PI_2, FRAC_PI_2_LOW);
-
-    /// A number of more digits than a double has.
-    pub(crate) const fn new(high: f64, low: f64) -> Self {
+impl<S> Pair<S> {
+    /// A number of more digits than a scalar has.
+    pub(crate) const fn new(high: S, low: S) -> Self
+    where
+        S: Copy,
+    {
         Self { high, low }
     }
+}
 
+impl<S: Masked> Pair<S> {
     /// a + b exactly, where |a| ≥ |b|.
     #[inline(always)]
-    pub(crate) fn fast_sum(a: f64, b: f64) -> Self {
+    pub(crate) fn fast_sum(a: S, b: S) -> Self {
         let high = a + b;
-        Self {
-            high,
-            low: b - (high - a),
-        }
+        Self::new(high, b - (high - a))
     }
 
     /// a + b exactly.
-    #[inline]
-    pub(crate) fn sum(a: f64, b: f64) -> Self {
+    #[inline(always)]
+    pub(crate) fn sum(a: S, b: S) -> Self {
         let (high, low) = two_sum(a, b);
         Self { high, low }
-    }
-
-    /// a/b
-    pub(crate) fn ratio(a: f64, b: f64) -> Self {
-        Self::from(a) / Self::from(b)
     }
 
     /// The sum in fewer operations than [`Add`]: the error is relative to the larger term.
@@ -61,30 +57,46 @@ impl Double {
         Self::fast_sum(sum.high, sum.low + (self.low + other.low))
     }
 
-    /// The product with a double.
+    /// The product with a scalar.
     #[inline(always)]
-    pub(crate) fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: S) -> Self {
         let product = Self::product(self.high, factor);
         Self::fast_sum(product.high, self.low.fused(factor, product.low))
     }
 
-    /// a·b exactly. The fused operation is a call where the target lacks it; there factors
-    /// that can be split without overflow are.
+    /// a·b exactly.
     #[inline(always)]
-    pub(super) fn product(a: f64, b: f64) -> Self {
-        const LARGEST: f64 = 1e150;
-        let has_fused = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
-        if !has_fused && a.abs() < LARGEST && b.abs() < LARGEST {
-            let (high, low) = two_product(a, b);
-            return Self { high, low };
-        }
+    pub(crate) fn product(a: S, b: S) -> Self {
         let high = a * b;
-        let low = a.mul_add(b, -high);
-        Self { high, low }
+        Self::new(high, a.product_error(b, high))
+    }
+
+    /// The results of `value` by lane.
+    #[inline(always)]
+    pub(crate) fn each(self, value: impl Fn(Double) -> Double) -> Self {
+        let mut result = self;
+        for lane in 0..S::LANES {
+            let u = value(Pair::new(self.high.lane(lane), self.low.lane(lane)));
+            result.high.set_lane(lane, u.high);
+            result.low.set_lane(lane, u.low);
+        }
+        result
+    }
+}
+
+impl Double {
+    pub(crate) const ONE: Self = Self::new(1.0, 0.0);
+
+    /// π/2
+    pub(crate) const FRAC_PI_2: Self = Self::new(FRAC_PI_2, FRAC_PI_2_LOW);
+
+    /// a/b
+    pub(crate) fn ratio(a: f64, b: f64) -> Self {
+        Self::from(a) / Self::from(b)
     }
 
     /// self/other, rounded once but for terms of second order.
-    pub(super) fn quotient(self, other: Self) -> f64 {
+    pub(crate) fn quotient(self, other: Self) -> f64 {
         let quotient = self.high / other.high;
         let remainder = (-quotient).mul_add(other.high, self.high);
         let correction = (remainder + (self.low - quotient * other.low)) / other.high;
@@ -96,7 +108,7 @@ impl Double {
     }
 
     /// √u
-    pub(super) fn root(self) -> Self {
+    pub(crate) fn root(self) -> Self {
         let root = self.high.sqrt();
         if root == 0.0 {
             return Self::from(root);
@@ -107,24 +119,24 @@ impl Double {
 
     /// The angle of the direction (cosine, sine): that of the rounded coordinates, and what
     /// their rounding took from it.
-    pub(super) fn angle(cosine: Self, sine: Self) -> Self {
+    pub(crate) fn angle(cosine: Self, sine: Self) -> Self {
         let turn = sine.low * cosine.high - cosine.low * sine.high;
         let square = sine.high * sine.high + cosine.high * cosine.high;
         Self::new(sine.high.atan2(cosine.high), turn / square)
     }
 }
 
-impl From<f64> for Double {
+impl<S: Scalar> From<S> for Pair<S> {
     #[inline]
-    fn from(value: f64) -> Self {
+    fn from(value: S) -> Self {
         Self {
             high: value,
-            low: 0.0,
+            low: S::from_f64(0.0),
         }
     }
 }
 
-impl Neg for Double {
+impl<S: Masked> Neg for Pair<S> {
     type Output = Self;
 
     #[inline]
@@ -136,7 +148,7 @@ impl Neg for Double {
     }
 }
 
-impl Add for Double {
+impl<S: Masked> Add for Pair<S> {
     type Output = Self;
 
     #[inline]
@@ -148,7 +160,7 @@ impl Add for Double {
     }
 }
 
-impl Sub for Double {
+impl<S: Masked> Sub for Pair<S> {
     type Output = Self;
 
     #[inline]
@@ -157,7 +169,7 @@ impl Sub for Double {
     }
 }
 
-impl Mul for Double {
+impl<S: Masked> Mul for Pair<S> {
     type Output = Self;
 
     #[inline]
@@ -168,7 +180,7 @@ impl Mul for Double {
     }
 }
 
-impl Div for Double {
+impl<S: Masked> Div for Pair<S> {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
@@ -178,4 +190,23 @@ impl Div for Double {
         let remainder = remainder - other * Self::from(second);
         Self::fast_sum(first, second) + Self::from(remainder.high / other.high)
     }
+}
+
+/// The assigning operators.
+macro_rules! assigning {
+    ($($operator:ident $function:ident $symbol:tt;)*) => {$(
+        impl<S: Masked> $operator for Pair<S> {
+            #[inline]
+            fn $function(&mut self, other: Self) {
+                *self = *self $symbol other;
+            }
+        }
+    )*};
+}
+
+assigning! {
+    AddAssign add_assign +;
+    SubAssign sub_assign -;
+    MulAssign mul_assign *;
+    DivAssign div_assign /;
 }

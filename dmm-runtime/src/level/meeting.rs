@@ -1,0 +1,244 @@
+//! The point where a solution meets a guard: t̂* and x̂* such that g = 0 and ψ keeps its level,
+//! both to rounding.
+//!
+//! The root of g along the polynomial is found by Halley's method, with d²g/dt² from the cubic
+//! between the start of the step and the point. The rest, so small that the flow is a straight
+//! line over it, is taken together with what is off the level: with u = −Λ⁺(ψ − ψ_ref) and
+//! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ. The
+//! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
+//! hold to some thirty digits, and transitions add nothing to the level.
+
+use super::{Level, Weights, select, switching_in_pairs};
+use crate::arithmetic::linear::dot;
+use crate::arithmetic::masked::{Mask, Masked, vector};
+use crate::arithmetic::{State, Time};
+use crate::contract::{Dynamics, Guards, Vector};
+
+/// Corrections of a crossing next to it.
+const MOST_CORRECTIONS: u32 = 12;
+/// Iterations towards a crossing, of which some may halve its bracket.
+const MOST_HALVINGS: u32 = 100;
+/// A correction of the time smaller than this part of the step is made along the field.
+const SMALL: f64 = 1e-8;
+
+/// A crossing in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found<S = f64> {
+    pub(crate) guard: usize,
+    /// The sign of g in the region that is left.
+    pub(crate) sign: f64,
+    /// About how long after the start.
+    pub(crate) elapsed: S,
+    /// How long after the start g is positive, and negative, with one root in between.
+    pub(crate) bracket: (S, S),
+    /// g and dg/dt at the start of the step, unless `elapsed` is a root to rounding.
+    pub(crate) start: Option<(S, S)>,
+}
+
+/// A point of a solution, and g there.
+#[derive(Clone, Copy)]
+pub(crate) struct Meeting<const N: usize, S: Masked = f64> {
+    pub(crate) time: Time<S>,
+    pub(crate) state: State<N, S>,
+    value: S,
+    gradient: Vector<S, N>,
+    /// f
+    field: Vector<S, N>,
+    /// dg/dt
+    pub(crate) rate: S,
+}
+
+impl<const N: usize, S: Masked> Meeting<N, S> {
+    #[inline(always)]
+    pub(crate) fn at<const M: usize, D: Dynamics<S, N, M>>(
+        dynamics: &D,
+        guard: usize,
+        time: Time<S>,
+        state: State<N, S>,
+    ) -> Self {
+        let guards = dynamics.guards();
+        let value = guards.switching_function(guard, time.value, &state.x);
+        let (by_time, gradient) = guards.switching_gradient(guard, time.value, &state.x);
+        let field = dynamics.vector_field(time.value, &state.x);
+        Self {
+            value: value + dot(&gradient, &state.remainder) + by_time * time.remainder,
+            rate: by_time + dot(&gradient, &field),
+            time,
+            state,
+            gradient,
+            field,
+        }
+    }
+
+    /// Reads g anew, at the point that it was moved to.
+    #[inline(always)]
+    fn read<const M: usize, D: Dynamics<S, N, M>>(&mut self, dynamics: &D, guard: usize) {
+        let there = Self::at(dynamics, guard, self.time, self.state);
+        (self.value, self.rate) = (there.value, there.rate);
+        (self.gradient, self.field) = (there.gradient, there.field);
+    }
+
+    /// Moves the `used` lanes by `off` and along the field such that g = 0; returns the square of
+    /// the distance.
+    #[inline(always)]
+    fn remove(&mut self, off: &Vector<S, N>, used: S::Mask) -> S {
+        // there is nothing to choose from
+        let used = if S::LANES == 1 {
+            S::Mask::all_are(true)
+        } else {
+            used
+        };
+        let delta = -(self.value + dot(&self.gradient, off)) / self.rate;
+        let displacement: Vector<S, N> = vector(|i| off[i] + self.field[i] * delta);
+        let mut state = self.state;
+        for i in 0..N {
+            state.remainder[i] += displacement[i];
+        }
+        let time = self.time.after(delta);
+        self.state = select(used, &state.normalised(), &self.state);
+        self.time.value = used.select(time.value, self.time.value);
+        self.time.remainder = used.select(time.remainder, self.time.remainder);
+        dot(&displacement, &displacement)
+    }
+
+    /// A point close to the one that is `found` in a step over `tau` from `start`, with the
+    /// increment of the state after any part of it; and the lanes that have come to it.
+    #[inline(always)]
+    pub(crate) fn near<const M: usize, D: Dynamics<S, N, M>>(
+        dynamics: &D,
+        found: &Found<S>,
+        (time, state): (Time<S>, &State<N, S>),
+        tau: S,
+        increment: impl Fn(S) -> Vector<S, N>,
+        used: S::Mask,
+    ) -> (Self, S::Mask) {
+        let small = S::from_f64(SMALL) * tau;
+        let mut elapsed = found.elapsed;
+        let mut open = used;
+        let n = S::from_f64;
+        let (mut lower, mut upper) = found.bracket;
+        let mut iterations = 0;
+        loop {
+            let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
+            let meeting = Self::at(dynamics, found.guard, time, state);
+            let delta = meeting.correction(found, elapsed);
+            open = open.and(delta.abs().at_most(small).not());
+            iterations += 1;
+            if !open.any() || iterations == MOST_HALVINGS {
+                return (meeting, used.and(open.not()));
+            }
+            let inside = (n(found.sign) * meeting.value).above(n(0.0));
+            lower = open.and(inside).select(elapsed, lower);
+            upper = open.and(inside.not()).select(elapsed, upper);
+            let next = elapsed + delta;
+            let within = lower.at_most(next).and(next.at_most(upper));
+            let next = within.select(next, n(0.5) * (lower + upper));
+            elapsed = open.select(next, elapsed);
+        }
+    }
+
+    /// The same for one lane by Halley's method alone, which mostly needs no bracket; nothing where it
+    /// leaves it.
+    #[inline(always)]
+    pub(crate) fn nearest<const M: usize, D: Dynamics<S, N, M>>(
+        dynamics: &D,
+        found: &Found<S>,
+        (time, state): (Time<S>, &State<N, S>),
+        tau: S,
+        increment: impl Fn(S) -> Vector<S, N>,
+    ) -> Option<Self> {
+        let small = S::from_f64(SMALL) * tau;
+        let mut elapsed = found.elapsed;
+        for _ in 0..MOST_CORRECTIONS {
+            let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
+            let meeting = Self::at(dynamics, found.guard, time, state);
+            let delta = meeting.correction(found, elapsed);
+            if delta.abs().at_most(small).all() {
+                let (lower, upper) = found.bracket;
+                let inside = lower.at_most(elapsed).and(elapsed.at_most(upper));
+                return inside.all().then_some(meeting);
+            }
+            elapsed = elapsed + delta;
+        }
+        None
+    }
+
+    /// The correction of a root at `elapsed`: a step of Halley's method, or of Newton's next to the
+    /// root.
+    #[inline(always)]
+    fn correction(&self, found: &Found<S>, elapsed: S) -> S {
+        let (n, value, rate) = (S::from_f64, self.value, self.rate);
+        match found.start {
+            Some((start, slope)) => {
+                let inverse = n(1.0) / elapsed;
+                let chord = (start - value) * inverse;
+                let bend = inverse * (n(6.0) * chord + n(2.0) * slope + n(4.0) * rate);
+                -value * rate / (rate * rate - n(0.5) * value * bend)
+            }
+            None => -value / rate,
+        }
+    }
+
+    /// Takes g and what is off the level of ψ, if that `corrects`, off a point close to the guard
+    /// after an `increment` of the state: in doubles until what is left is of the size of their
+    /// rounding errors, then once in pairs of doubles. Returns the point, and the lanes in which
+    /// it is one.
+    #[inline(always)]
+    pub(crate) fn settled<const M: usize, D: Dynamics<S, N, M>>(
+        mut self,
+        dynamics: &D,
+        level: &Level<N, M, S>,
+        guard: usize,
+        increment: &Vector<S, N>,
+        (corrects, used): (bool, S::Mask),
+    ) -> (Self, S::Mask) {
+        /// A displacement of this part of the state or of the step has an error of second order far
+        /// below a rounding error of doubles, and after one more of pairs.
+        const SMALL: f64 = 1e-11;
+        let n = S::from_f64;
+        let none: Vector<S, N> = vector(|_| n(0.0));
+        let x = self.state.x;
+        let weights = Weights::new(&x, increment);
+        let small = n(SMALL * SMALL) * (dot(&x, &x) + dot(increment, increment));
+        let mut before = n(f64::INFINITY);
+        let mut moves = used;
+        for _ in 0..MOST_CORRECTIONS {
+            let off = match corrects {
+                true => level.correction(dynamics, self.time, &self.state, &weights),
+                false => none,
+            };
+            let size = self.remove(&off, moves);
+            self.read(dynamics, guard);
+            // where g hardly changes, its rounding errors in doubles move the point further
+            moves = moves
+                .and(size.above(small))
+                .and(before.above(n(4.0) * size));
+            if !moves.any() {
+                break;
+            }
+            before = size;
+        }
+        let mut moves = used;
+        for _ in 0..MOST_CORRECTIONS {
+            self.value = switching_in_pairs(dynamics, guard, self.time, &self.state);
+            let off = match corrects {
+                true => {
+                    let (_, multiplier) = dynamics.multiplier(self.time.value, &self.state.x);
+                    let residual = level.residual(dynamics, self.time, &self.state);
+                    level.towards(&multiplier, &residual, &weights)
+                }
+                false => none,
+            };
+            let size = self.remove(&off, moves);
+            moves = moves.and(size.at_most(small).not());
+            if !moves.any() {
+                break;
+            }
+            let rate = self.rate;
+            self.read(dynamics, guard);
+            self.rate = moves.select(self.rate, rate);
+        }
+        let finite = (0..N).fold(n(0.0), |sum, i| sum + n(0.0) * self.state.x[i]);
+        (self, used.and(moves.not()).and(finite.equals(n(0.0))))
+    }
+}
