@@ -16,6 +16,8 @@
 //! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
 //! | integrate many initial states and parameters | [`Ensemble`] |
 //! | evaluate ψ at a point | [`System::conserved`] |
+//! | choose systems and methods at run time | [`dynamic`] |
+//! | compile a declaration at run time | `Model`, with the feature `model` |
 //! | replace the search for crossings of one-step methods | [`Locator`] |
 //! | write a one-step method | [`OneStep`] in [`Uniform`] or [`Adaptive`] steps, [`Dynamics`] |
 //!
@@ -29,6 +31,7 @@
 //! | guard | a function whose zero ends a mode: g of an interface, or the [`Condition`] of a proof ([`Guards`]) |
 //! | transition | crossing an interface, at (t̂*, x̂*) |
 //! | method | what moves the state through one mode ([`Method`]) |
+//! | metadata | the names in a system, and where its regions lie ([`Metadata`]) |
 //! | driver | what goes from mode to mode ([`Integrator`], [`Stepper`]) |
 //! | level | ψ_ref, the values of ψ at the entry into a mode |
 //!

@@ -2,8 +2,8 @@
 //! record in `instructions.csv`: a slowdown shows on any machine, however busy.
 //!
 //! ```sh
-//! cargo run --release -p dmm-problems --example instructions -- --check [PROBLEM…]
-//! cargo run --release -p dmm-problems --example instructions -- --record
+//! cargo run --release -p dmm-problems --features compiled --example instructions -- --check [PROBLEM…]
+//! cargo run --release -p dmm-problems --features compiled --example instructions -- --record
 //! ```
 //!
 //! The program runs itself under `valgrind --tool=callgrind` from a problem's initial value to

@@ -21,13 +21,28 @@ fn tape(declaration: &str) -> Result<Box<AnySystem>, String> {
     model.into_any().map_err(|error| error.to_string())
 }
 
+/// What is done with every system, by its type.
+pub trait SystemVisitor {
+    /// Does it.
+    fn visit<Sys: System<N> + Default, const N: usize>(
+        &mut self,
+        description: &'static Description,
+    );
+}
+
 macro_rules! entries {
     ($($system:ident $states:literal $module:ident $compiled:expr;)*) => {
-        &[$(Entry {
+        /// Every problem, the piecewise-smooth ones first.
+        const ENTRIES: &[Entry] = &[$(Entry {
             description: &$module::DESCRIPTION,
             tape: || declared(&$system::default()),
             compiled: $compiled,
-        }),*]
+        }),*];
+
+        /// Hands every system to `visitor`.
+        pub fn visit_systems(visitor: &mut impl SystemVisitor) {
+            $(visitor.visit::<$system, $states>(&$module::DESCRIPTION);)*
+        }
     };
 }
 
@@ -52,8 +67,7 @@ macro_rules! seldom {
     };
 }
 
-/// Every problem, the piecewise-smooth ones first.
-const ENTRIES: &[Entry] = entries! {
+entries! {
     Harmonic 2 harmonic compiled!(Harmonic 2);
     Elliptic 2 elliptic compiled!(Elliptic 2);
     Pendulum 2 pendulum seldom!(Pendulum 2);
@@ -75,7 +89,7 @@ const ENTRIES: &[Entry] = entries! {
     SaturatingSpring 2 saturating_spring seldom!(SaturatingSpring 2);
     DoublePendulum 4 double_pendulum seldom!(DoublePendulum 4);
     ThreeBody 12 three_body seldom!(ThreeBody 12);
-};
+}
 
 impl Entry {
     /// The problem, of the system that was compiled with the program if there is one.

@@ -158,7 +158,7 @@ impl<const N: usize, S: Masked> Meeting<N, S> {
                 let inside = lower.at_most(elapsed).and(elapsed.at_most(upper));
                 return inside.all().then_some(meeting);
             }
-            elapsed = elapsed + delta;
+            elapsed += delta;
         }
         None
     }

@@ -1,0 +1,242 @@
+//! Systems that are compiled at run time give what those compiled with a program give, to rounding.
+
+use dmm_problems::problem::Description;
+use dmm_problems::registry::{SystemVisitor, visit_systems};
+use dmm_runtime::dynamic::{
+    AnySystem, Crossed, Erased, Finish, InitialValue, MethodChoice, MethodVisitor, Parallelism,
+    Sink, Start, Unobserved,
+};
+use dmm_runtime::{Best, Error, Model, Symmetric, System, Taylor};
+use std::ops::ControlFlow;
+
+/// The methods that are compared: one-step, Taylor, and exact flows.
+#[derive(Clone, Copy, Debug)]
+enum Choice {
+    Symmetric(f64),
+    Taylor,
+    Best,
+}
+
+impl MethodChoice for Choice {
+    fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
+        match *self {
+            Self::Symmetric(step_size) => visitor.visit(Symmetric::step_size(step_size)),
+            Self::Taylor => visitor.visit(Taylor::tolerance(1e-9)),
+            Self::Best => visitor.visit(Best::tolerance(1e-12)),
+        }
+    }
+}
+
+/// The time of a comparison: rounding errors of chaotic solutions have not grown far.
+const LONGEST: f64 = 5.0;
+/// Rounding errors, which grow along a solution.
+const ROUNDING: f64 = 1e-11;
+
+/// Compares the two ways to compile each system.
+struct Compare {
+    runs: usize,
+    transitions: u64,
+    /// The runs whose results are the same to the last bit.
+    equal: usize,
+}
+
+fn compiled_at_run_time(declaration: &str) -> Box<dyn AnySystem<Choice>> {
+    let model = Model::compile(declaration).unwrap_or_else(|error| panic!("{error}"));
+    model.into_any().unwrap()
+}
+
+impl SystemVisitor for Compare {
+    fn visit<Sys: System<N> + Default, const N: usize>(
+        &mut self,
+        description: &'static Description,
+    ) {
+        let compiled: Box<dyn AnySystem<Choice>> = Erased::boxed(Sys::default());
+        let model = compiled_at_run_time(compiled.declaration());
+        assert_eq!(model.metadata(), compiled.metadata());
+        assert_eq!(model.parameters(), compiled.parameters());
+        assert_eq!(model.defaults(), compiled.defaults());
+        assert_eq!(model.listing(), compiled.listing());
+        let t_end = description.t_end.min(LONGEST);
+        let from = InitialValue::new(description.initial.to_vec(), t_end);
+        let step_size = description.step_size.max(1e-3);
+        for choice in [Choice::Symmetric(step_size), Choice::Taylor, Choice::Best] {
+            let [expected, end] = [&compiled, &model]
+                .map(|system| system.integrate(&choice, &from, &mut Unobserved).unwrap());
+            let name = description.name;
+            assert_eq!(
+                (end.statistics.steps, end.statistics.transitions),
+                (expected.statistics.steps, expected.statistics.transitions),
+                "{name} {choice:?}"
+            );
+            self.runs += 1;
+            self.transitions += end.statistics.transitions;
+            self.equal += usize::from(end.x == expected.x);
+            let size = expected.x.iter().fold(1.0f64, |size, x| size.max(x.abs()));
+            for (a, b) in end.x.iter().zip(&expected.x) {
+                let error = (a - b).abs() / size;
+                assert!(error <= ROUNDING, "{name} {choice:?}: {error:e}");
+            }
+        }
+        for region in 0..compiled.metadata().regions.len() {
+            let x = description.initial;
+            assert_eq!(
+                model.vector_field(region, 0.3, x).len(),
+                compiled.metadata().states.len()
+            );
+            let psi = [&compiled, &model].map(|system| system.conserved(region, 0.3, x));
+            assert_eq!(
+                psi[0].len(),
+                compiled.metadata().regions[region].conserved.len()
+            );
+            for (a, b) in psi[0].iter().zip(&psi[1]) {
+                assert!((a - b).abs() <= 1e-14 * (1.0 + a.abs()), "{a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn all_problems_agree() {
+    let mut compare = Compare {
+        runs: 0,
+        transitions: 0,
+        equal: 0,
+    };
+    visit_systems(&mut compare);
+    assert!(compare.runs > 60 && compare.transitions > 100);
+    // the operations are the same; what is fused may differ
+    assert!(3 * compare.equal > 2 * compare.runs, "{}", compare.equal);
+}
+
+/// A falling ball on a spring.
+const BALL: &str = "system Ball {
+    state x, v;
+    param k = 4, m = 1;
+    interface spring = x;
+    region free where spring > 0 {
+        der(x) = v; der(v) = -1; conserved energy = m*(v^2/2 + x);
+    }
+    region pressed where spring < 0 {
+        der(x) = v; der(v) = -1 - k*x/m; conserved energy = m*(v^2/2 + x) + k*x^2/2;
+    }
+}";
+
+fn fall(k: f64, t_end: f64) -> Result<Finish, Error> {
+    let mut model = Model::compile(BALL).unwrap();
+    model.set("k", k)?;
+    let ball = model.into_any()?;
+    let from = InitialValue::new(vec![1.0, 0.0], t_end);
+    ball.integrate(&Choice::Best, &from, &mut Unobserved)
+}
+
+#[test]
+fn parameters_are_set_by_name() {
+    // free fall for √2, then half a period about −m/k
+    let time = |k: f64| {
+        let omega: f64 = k.sqrt();
+        let half = std::f64::consts::PI + 2.0 * (1.0 / (omega * 2f64.sqrt())).atan();
+        2.0 * 2f64.sqrt() + half / omega
+    };
+    for k in [1.0, 4.0, 30.0] {
+        let end = fall(k, time(k)).unwrap();
+        assert!(
+            (end.x[0] - 1.0).abs() < 1e-13 && end.x[1].abs() < 1e-13,
+            "{k} {end:?}"
+        );
+        assert_eq!(end.statistics.transitions, 2);
+    }
+    let mut model = Model::compile(BALL).unwrap();
+    let error = model.set("stiffness", 1.0).unwrap_err().to_string();
+    assert!(error.contains("stiffness"), "{error}");
+    let error = fall(f64::NAN, 1.0).unwrap_err().to_string();
+    assert!(error.contains("k = NaN"), "{error}");
+}
+
+#[test]
+fn mistakes_are_told_by_line_and_column() {
+    let errors = |text: &str| Model::compile(text).unwrap_err().to_string();
+    let text = "system Ball {\n    state x, v;\n    der(x) = v;\n    der(v) = -w;\n}";
+    assert!(
+        errors(text).starts_with("4:15: `w` is not declared"),
+        "{}",
+        errors(text)
+    );
+    assert!(errors("fn main() {}").starts_with("1:1: no system is declared"));
+    assert!(errors("system A { state x; der(x) = 1; } \"").contains("tokens"));
+    let two =
+        "pws! { system A { state x; der(x) = 1; } } pws! { system B { state x; der(x) = 1; } }";
+    assert!(errors(two).contains("more than one system"));
+    let false_claim = "system A { state x, y; der(x) = y; der(y) = -x; conserved e = x^2 - y^2; }";
+    assert!(
+        errors(false_claim).contains("PWS300"),
+        "{}",
+        errors(false_claim)
+    );
+    let large = "system A { state x[200]; for i in 0..200 { der(x[i]) = 1; } }";
+    let error = Model::compile(large).map(|model| model.into_any::<Choice>().map(drop));
+    assert!(format!("{error:?}").contains("128 states"), "{error:?}");
+}
+
+#[test]
+fn a_start_has_as_many_entries_as_there_are_states() {
+    let ball: Box<dyn AnySystem<Choice>> = compiled_at_run_time(BALL);
+    for initial in [vec![], vec![1.0], vec![1.0, 0.0, 0.0]] {
+        let from = InitialValue::new(initial, 1.0);
+        let error = ball
+            .integrate(&Choice::Best, &from, &mut Unobserved)
+            .unwrap_err();
+        assert!(error.to_string().contains("as many entries"), "{error}");
+    }
+}
+
+#[test]
+fn ensembles_and_observers_have_the_states_of_the_system_alone() {
+    // three states, in a size for four
+    let top = compiled_at_run_time(
+        "system Top { state x, y, z; der(x) = y*z/2; der(y) = -z*x; der(z) = x*y/2;
+            conserved size = x^2 + y^2 + z^2; conserved energy = x^2 + y^2/2; }",
+    );
+    struct Lengths(usize);
+    impl Sink for Lengths {
+        fn record(&mut self, record: &dmm_runtime::dynamic::Record<'_>) -> ControlFlow<()> {
+            assert_eq!((record.x.len(), record.psi.len()), (3, 2));
+            self.0 += 1;
+            ControlFlow::Continue(())
+        }
+
+        fn transition(&mut self, _: &Crossed) -> ControlFlow<()> {
+            panic!("there is no interface")
+        }
+    }
+    let mut lengths = Lengths(0);
+    let from = InitialValue::new(vec![1.0, 0.2, 0.4], 20.0);
+    let end = top.integrate(&Choice::Taylor, &from, &mut lengths).unwrap();
+    assert!(lengths.0 > 20);
+    for lanes in [false, true] {
+        let parallelism = Parallelism {
+            threads: Some(1),
+            lanes,
+        };
+        let mut starts = (0..20).map(|_| Start {
+            parameters: Vec::new(),
+            initial: vec![1.0, 0.2, 0.4],
+        });
+        let mut arrivals = 0;
+        top.integrate_all(
+            &Choice::Taylor,
+            20.0,
+            parallelism,
+            &mut starts,
+            &mut |outcome| {
+                let x = outcome.arrival.unwrap().x;
+                assert_eq!(x.len(), 3);
+                for (a, b) in x.iter().zip(&end.x) {
+                    assert!((a - b).abs() < 1e-7, "{x:?}");
+                }
+                arrivals += 1;
+                ControlFlow::Continue(())
+            },
+        );
+        assert_eq!(arrivals, 20);
+    }
+}
