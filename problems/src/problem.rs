@@ -110,7 +110,7 @@ impl Problem {
         let system = model.into_any()?;
         let description = Description {
             name: metadata.name,
-            title: "",
+            title: "a system of your own",
             source: "",
             // kept like the names
             initial: Vec::leak(vec![0.0; metadata.states.len()]),

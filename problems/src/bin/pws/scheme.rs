@@ -10,9 +10,9 @@ use crate::output;
 /// A scheme, with its step size or tolerance.
 #[derive(clap::Args)]
 pub(crate) struct SchemeOptions {
-    /// The scheme.
-    #[arg(long, default_value = "symmetric", value_parser = names())]
-    scheme: String,
+    /// The scheme [default: symmetric; best for a system that a file declares].
+    #[arg(long, value_parser = names())]
+    scheme: Option<String>,
     /// Step size; of a scheme that takes a tolerance, the distance of output points [default:
     /// the problem's, or 1e-3 where all are compared].
     #[arg(long, allow_negative_numbers = true)]
@@ -44,13 +44,13 @@ fn parser(methods: impl Iterator<Item = MethodName>) -> PossibleValuesParser {
 }
 
 impl SchemeOptions {
-    /// The scheme.
-    fn method(&self) -> Result<MethodName, Failure> {
-        let method = named(&self.scheme, self.tolerance.is_some())?;
+    /// The scheme, or `usual`.
+    fn method(&self, usual: MethodName) -> Result<MethodName, Failure> {
+        let name = self.scheme.as_deref().unwrap_or(usual.name());
+        let method = named(name, self.tolerance.is_some())?;
         match (method.control(), self.tolerance) {
             (Control::StepSize { .. }, Some(_)) => Err(Failure::Request(format!(
-                "the scheme `{}` takes a step size, not a tolerance",
-                self.scheme
+                "the scheme `{name}` takes a step size, not a tolerance",
             ))),
             _ => Ok(method),
         }
@@ -58,7 +58,7 @@ impl SchemeOptions {
 
     /// The run with these options instead of its own.
     pub(crate) fn applied(&self, run: Run) -> Result<Run, Failure> {
-        let method = self.method()?;
+        let method = self.method(run.method)?;
         let step_size = self.step.unwrap_or(run.step_size);
         Ok(Run {
             method,
