@@ -2,7 +2,7 @@
 //! of a step as a multiple of that of generated code, in turn.
 //!
 //! ```sh
-//! cargo run --release -p dmm-problems --example tape
+//! cargo run --release -p dmm-problems --features compiled --example tape
 //! ```
 
 use std::time::{Duration, Instant};
