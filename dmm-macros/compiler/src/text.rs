@@ -59,7 +59,7 @@ pub fn declarations(text: &str) -> Result<Vec<TokenStream>, Message> {
         return Err(Message {
             line: 1,
             column: 1,
-            text: "no system is declared: there is neither `pws! { … }` nor `system Name { … }`"
+            text: "this declares no system: it has neither `pws! { … }` nor `system Name { … }`"
                 .to_owned(),
         });
     }

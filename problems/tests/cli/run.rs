@@ -197,3 +197,69 @@ fn what_was_computed_before_a_failure_is_kept() {
     assert!(points.len() > 100);
     assert!(results.path("phase.svg").exists());
 }
+
+/// A declaration alone.
+const BALL: &str = "system Ball {
+    state x, v;
+    param k = 4;
+    interface spring = x;
+    region free where spring > 0 {
+        der(x) = v; der(v) = -1; conserved energy = v^2/2 + x;
+    }
+    region pressed where spring < 0 {
+        der(x) = v; der(v) = -1 - k*x; conserved energy = v^2/2 + x + k*x^2/2;
+    }
+}
+";
+
+#[test]
+fn a_system_of_a_file_runs() {
+    let results = Results::within("out");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ball.pws");
+    fs::write(&path, BALL).unwrap();
+    let file = path.to_str().unwrap();
+    let text = results.said(&[
+        "run",
+        file,
+        "--initial",
+        "x=1",
+        "--param",
+        "k=9",
+        "--end",
+        "50",
+        "--tolerance",
+        "1e-12",
+    ]);
+    assert!(
+        text.contains("Ball") && text.contains("best with tolerance"),
+        "{text}"
+    );
+    let (header, points) = results.table("points.csv");
+    assert_eq!(header, ["t", "region", "x", "v", "energy", "energy_error"]);
+    let energy: f64 = points.last().unwrap()[4].parse().unwrap();
+    assert!((energy - 1.0).abs() < 1e-13, "{energy}");
+    let (_, transitions) = results.table("transitions.csv");
+    // free fall from 1 takes √2
+    let t: f64 = transitions[0][0].parse().unwrap();
+    assert!((t - 2f64.sqrt()).abs() < 1e-14, "{t}");
+    assert!(transitions.len() > 20);
+
+    let errors = refusal(&["run", file, "--initial", "y=1"]);
+    assert!(
+        errors.contains("unknown state `y`; there are x, v"),
+        "{errors}"
+    );
+    let errors = refusal(&["run", file, "--param", "m=1"]);
+    assert!(
+        errors.contains("unknown parameter `m`; there are k"),
+        "{errors}"
+    );
+    fs::write(&path, BALL.replace("v^2/2 + x;", "v^2/2 - x;")).unwrap();
+    let errors = refusal(&["run", file]);
+    assert!(errors.contains("ball.pws:6:"), "{errors}");
+    assert!(
+        errors.contains("[PWS300]") && errors.contains("1 error in"),
+        "{errors}"
+    );
+}

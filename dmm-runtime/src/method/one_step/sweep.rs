@@ -70,7 +70,8 @@ impl<const N: usize> Sweeps<N> {
         x0: &Vector<f64, N>,
     ) -> Self {
         let scale = increment.zip_map(x0, |d, x| d.abs() + SHARE_OF_STATE * x.abs());
-        // ‖τ ∂f^τ/∂x₁‖ and ‖e‖ in the norm max |uᵢ|/scaleᵢ; NaN where a scale is zero
+        // ‖τ ∂f^τ/∂x₁‖ and ‖e‖ in the norm max |uᵢ|/scaleᵢ; NaN where a scale is zero, but for
+        // components that rest at zero
         let mut contraction = 0.0;
         let mut error = 0.0;
         for i in 0..N {
@@ -79,12 +80,16 @@ impl<const N: usize> Sweeps<N> {
                 let slope = matrix[(i, j)] - if i == j { 1.0 } else { 0.0 };
                 row += slope.abs() * scale[j];
             }
-            contraction = larger(contraction, row / scale[i]);
-            error = larger(error, correction[i].abs() / scale[i]);
+            let off = correction[i].abs();
+            let rests = scale[i] == 0.0 && row == 0.0 && off == 0.0;
+            if !rests {
+                contraction = larger(contraction, row / scale[i]);
+                error = larger(error, off / scale[i]);
+            }
         }
         Self {
             enough: error * contraction.powi(MOST as i32) <= ENOUGH,
-            tolerance: scale * (ENOUGH / contraction),
+            tolerance: scale * (ENOUGH / contraction.max(f64::MIN_POSITIVE)),
             left: INTERVAL - 1,
         }
     }
