@@ -2,8 +2,8 @@
 //! studies that the program `pws` runs on them.
 //!
 //! - [`systems`]: one file a system, with its source and initial value problem;
-//! - [`problem`]: the same operations on all of them, whatever their dimension, implemented in
-//!   [`entry`] for systems declared by `pws!`; [`method`]: the schemes by name;
+//! - [`problem`]: the same operations on all of them, whatever their dimension; [`registry`]: every
+//!   problem by name, compiled with the program or at run time; [`method`]: the schemes by name;
 //! - [`mod@reference`]: solutions known to 32 digits; [`accurate`]: an independent integrator of
 //!   high order, for what the reference does not list;
 //! - [`convergence`], [`conservation`], [`work_precision`] and [`stress`]: the studies;

@@ -209,15 +209,14 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
             } => {
                 let u = self.value(argument);
                 self.derivative(u, derivative);
-                let value = match (at, rate) {
+                match (at, rate) {
                     (0, Some((negative, p))) => {
                         let p = self.fixed(p);
                         (if negative { -p } else { p }).exp_product(self.t)
                     }
                     (0, None) => u.exp(),
                     _ => series::integral(k, self.array(derivative), self.array(own)),
-                };
-                value
+                }
             }
             FunctionStep::Tangent {
                 function,
