@@ -12,7 +12,7 @@
 //! several quantities each is damped in the direction that it adds to those before it, and the rows
 //! that count are those that [`MinimalNorm`] keeps in the discrete vector field.
 
-mod meeting;
+mod guard_point;
 
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::contract::{Dynamics, Guards, Matrix, Vector};
 
-pub(crate) use meeting::{Found, Meeting};
+pub(crate) use guard_point::{Found, GuardPoint};
 
 /// The level of the conserved quantities in a segment.
 #[derive(Clone, Copy, Debug)]

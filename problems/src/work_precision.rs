@@ -1,4 +1,4 @@
-//! Time against final error: every scheme over a ladder of step sizes or tolerances, until a
+//! Time against final error: every scheme over many step sizes or tolerances, until a
 //! fixed time at which the exact state is known.
 //!
 //! The runs of all settings are made in turn, round after round, so that what disturbs the
@@ -126,7 +126,7 @@ impl Goal {
     ) -> Vec<Setting> {
         let mut settings = Vec::new();
         for &method in methods {
-            settings.extend(self.ladder(problem, method));
+            settings.extend(self.settings_of(problem, method));
         }
         for _ in 0..rounds {
             for setting in &mut settings {
@@ -155,7 +155,7 @@ impl Goal {
 
     /// The settings of a scheme, from the coarsest until the error is rounding or a run takes
     /// too long.
-    fn ladder(&self, problem: &Problem, method: MethodName) -> Vec<Setting> {
+    fn settings_of(&self, problem: &Problem, method: MethodName) -> Vec<Setting> {
         let mut settings = Vec::new();
         let (mut control, factor, least) = match method.control() {
             Control::StepSize { .. } => (LARGEST_STEP, 0.5, 0.0),

@@ -16,9 +16,9 @@ pub trait MethodChoice {
     /// Hands the method to `visitor`.
     fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output;
 
-    /// The same for runs that nobody listens to, and ensembles. What is compiled for them as well
-    /// takes its time to compile: a choice may leave methods out, which then run as if somebody
-    /// listened, and not in ensembles.
+    /// The same for runs that are not observed, and for ensembles. What is compiled for them as well
+    /// takes its time to compile: a choice may leave methods out, which then run as if they were
+    /// observed, and not in ensembles.
     fn visit_unobserved<V: MethodVisitor>(&self, visitor: V) -> Option<V::Output> {
         Some(self.visit(visitor))
     }

@@ -5,7 +5,7 @@ use super::register::Wide;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::masked::Mask;
 use crate::contract::Dynamics;
-use crate::level::{Found, Meeting};
+use crate::level::{Found, GuardPoint};
 
 impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// Moves every lane to the interface: t̂* and x̂* such that g = 0 and ψ keeps its level.
@@ -23,7 +23,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         };
         let start = (self.register.time, &self.register.state);
         let increment = |elapsed| self.increment(elapsed);
-        let (near, located) = Meeting::near(self.dynamics, &found, start, tau, increment, used);
+        let (near, located) = GuardPoint::near(self.dynamics, &found, start, tau, increment, used);
         let increment = near.state.x - self.register.state.x;
         let how = (self.settings.corrects, located);
         let level = self.register.level();

@@ -7,7 +7,7 @@ use crate::algebra::Rational;
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::syntax::DEPTH;
 
-/// The longest chain of operations; later stages walk formulas recursively.
+/// The longest chain of operations; later stages go through formulas recursively.
 const TALLEST: usize = 400;
 
 /// A formula as written.

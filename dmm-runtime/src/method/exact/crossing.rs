@@ -38,7 +38,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Result<Ended, Failure> {
         let (guard, _) = dynamics.sides()[found.side];
         let (mut time, mut state) = match self.meet(dynamics, sizes, found, tau) {
-            Some(meeting) => meeting,
+            Some(point) => point,
             None => self.halve(dynamics, sizes, found),
         };
         let mut rate = slide(dynamics, guard, &mut time, &mut state);

@@ -33,12 +33,12 @@ impl<const N: usize> StepSizes<N> {
     fn early(&self, gradient: &Vector<f64, N>) -> Vector<f64, N> {
         const TERMS: u32 = 9;
         const MARGIN: f64 = 1.0 + 1e-6;
-        const RUNG: usize = 1;
+        const EXPONENT: usize = 1;
         let a = &self.coefficients.matrix;
-        let part = &self.flows[RUNG];
+        let part = &self.flows[EXPONENT];
         let mut row = times(a, &times(a, &times(a, &(*gradient).into())));
         let mut largest = Vector::<f64, N>::zeros();
-        for number in 0..PARTS >> RUNG {
+        for number in 0..PARTS >> EXPONENT {
             if number > 0 {
                 row = part.transposed_roughly(&row);
             }
@@ -48,7 +48,7 @@ impl<const N: usize> StepSizes<N> {
                 for (sum, term) in sum.iter_mut().zip(&term) {
                     *sum += term.abs();
                 }
-                let factor = self.size(RUNG) * inverse(k);
+                let factor = self.size(EXPONENT) * inverse(k);
                 term = times(a, &term).map(|entry| entry * factor);
             }
             largest = largest.sup(&Vector::from(sum));

@@ -27,7 +27,7 @@ pub trait Composition: sealed::Sealed {
 }
 
 mod sealed {
-    /// Nobody else implements [`Composition`](super::Composition).
+    /// Nothing else implements [`Composition`](super::Composition).
     pub trait Sealed {}
 }
 

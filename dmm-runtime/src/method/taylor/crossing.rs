@@ -1,18 +1,18 @@
-//! The point where a Taylor step meets a guard: see [`Meeting`].
+//! The point where a Taylor step meets a guard: see [`GuardPoint`].
 
 use super::segment::{Here, Segment};
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::expansion::jet::Jet;
-use crate::level::{Found, Level, Meeting};
+use crate::level::{Found, GuardPoint, Level};
 use crate::method::{Ended, Failure, Sink};
 use crate::series::Unroll;
 
 impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     /// Moves to the guard.
     #[inline(never)]
-    pub(super) fn arrive<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+    pub(super) fn go_to_guard<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
         &mut self,
         dynamics: &D,
         level: &Level<N, M>,
@@ -72,7 +72,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Option<(Time, State<N>, f64)> {
         let start = (self.cursor.time, &self.cursor.state);
         let increment = |elapsed| jet.increment(elapsed);
-        let near = match Meeting::nearest(dynamics, found, start, tau, increment) {
+        let near = match GuardPoint::nearest(dynamics, found, start, tau, increment) {
             Some(near) => near,
             None => self.in_bracket::<P, M, D, U>(dynamics, jet, found, tau)?,
         };
@@ -97,10 +97,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         jet: &Jet<D, U, N, M, P>,
         found: &Found,
         tau: f64,
-    ) -> Option<Meeting<N>> {
+    ) -> Option<GuardPoint<N>> {
         let start = (self.cursor.time, &self.cursor.state);
         let increment = |elapsed| jet.increment(elapsed);
-        let (near, located) = Meeting::near(dynamics, found, start, tau, increment, true);
+        let (near, located) = GuardPoint::near(dynamics, found, start, tau, increment, true);
         located.then_some(near)
     }
 
@@ -112,7 +112,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         dynamics: &D,
         level: &Level<N, M>,
         guard: usize,
-        (near, increment): (&Meeting<N>, &Vector<f64, N>),
+        (near, increment): (&GuardPoint<N>, &Vector<f64, N>),
     ) -> Option<(Time, State<N>, f64)> {
         let how = (false, true);
         let (there, settled) = near.settled(dynamics, level, guard, increment, how);

@@ -68,7 +68,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 Ok(Ended::Stopped)
             }
             Next::Crossing { found, tau, level } => {
-                self.arrive::<P, M, D, U>(dynamics, &level, &jet, &found, tau)
+                self.go_to_guard::<P, M, D, U>(dynamics, &level, &jet, &found, tau)
             }
             Next::Not(tau) => Err(StepFailure::NotFinite.over(tau)),
             Next::Unknown { guard, tau } => Err(Failure::undecided(guard, tau)),

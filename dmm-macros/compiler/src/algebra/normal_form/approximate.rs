@@ -43,7 +43,7 @@ impl Approximate {
         )
     }
 
-    /// −1 or 1 if the sign of the real part is beyond doubt.
+    /// −1 or 1 if the sign of the real part is certain.
     pub(super) fn sign(self) -> Option<i64> {
         let clear = self.re.is_finite() && self.re.abs() > 1e3 * self.error;
         clear.then_some(if self.re < 0.0 { -1 } else { 1 })

@@ -37,7 +37,7 @@ pub(crate) struct Found<S = f64> {
 
 /// A point of a solution, and g there.
 #[derive(Clone, Copy)]
-pub(crate) struct Meeting<const N: usize, S: Masked = f64> {
+pub(crate) struct GuardPoint<const N: usize, S: Masked = f64> {
     pub(crate) time: Time<S>,
     pub(crate) state: State<N, S>,
     value: S,
@@ -48,7 +48,7 @@ pub(crate) struct Meeting<const N: usize, S: Masked = f64> {
     pub(crate) rate: S,
 }
 
-impl<const N: usize, S: Masked> Meeting<N, S> {
+impl<const N: usize, S: Masked> GuardPoint<N, S> {
     #[inline(always)]
     pub(crate) fn at<const M: usize, D: Dynamics<S, N, M>>(
         dynamics: &D,
@@ -120,14 +120,14 @@ impl<const N: usize, S: Masked> Meeting<N, S> {
         let mut iterations = 0;
         loop {
             let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
-            let meeting = Self::at(dynamics, found.guard, time, state);
-            let delta = meeting.correction(found, elapsed);
+            let point = Self::at(dynamics, found.guard, time, state);
+            let delta = point.correction(found, elapsed);
             open = open.and(delta.abs().at_most(small).not());
             iterations += 1;
             if !open.any() || iterations == MOST_HALVINGS {
-                return (meeting, used.and(open.not()));
+                return (point, used.and(open.not()));
             }
-            let inside = (n(found.sign) * meeting.value).above(n(0.0));
+            let inside = (n(found.sign) * point.value).above(n(0.0));
             lower = open.and(inside).select(elapsed, lower);
             upper = open.and(inside.not()).select(elapsed, upper);
             let next = elapsed + delta;
@@ -151,12 +151,12 @@ impl<const N: usize, S: Masked> Meeting<N, S> {
         let mut elapsed = found.elapsed;
         for _ in 0..MOST_CORRECTIONS {
             let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
-            let meeting = Self::at(dynamics, found.guard, time, state);
-            let delta = meeting.correction(found, elapsed);
+            let point = Self::at(dynamics, found.guard, time, state);
+            let delta = point.correction(found, elapsed);
             if delta.abs().at_most(small).all() {
                 let (lower, upper) = found.bracket;
                 let inside = lower.at_most(elapsed).and(elapsed.at_most(upper));
-                return inside.all().then_some(meeting);
+                return inside.all().then_some(point);
             }
             elapsed += delta;
         }
