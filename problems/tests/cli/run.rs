@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{Results, refusal, texts};
+use super::{Results, pws, refusal, texts};
 
 #[test]
 fn run_writes_points_transitions_and_pictures() {
@@ -256,7 +256,7 @@ fn a_system_of_a_file_runs() {
         "{errors}"
     );
     fs::write(&path, BALL.replace("v^2/2 + x;", "v^2/2 - x;")).unwrap();
-    let errors = refusal(&["run", file]);
+    let [_, errors] = texts(pws(&["run", file]), 2);
     assert!(errors.contains("ball.pws:6:"), "{errors}");
     assert!(
         errors.contains("[PWS300]") && errors.contains("1 error in"),
