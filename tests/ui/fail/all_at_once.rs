@@ -26,6 +26,6 @@ fn states<const N: usize, S: dmm_runtime::System<N>>(system: &S) -> &'static [&'
 
 fn main() {
     let system = Everything { k: 2.0, ..Default::default() };
-    let names: [&str; 2] = states(&system);
+    let names: &[&str] = states(&system);
     println!("{system:?} {names:?} {:?}", EverythingRegion::Right);
 }

@@ -12,5 +12,5 @@ pws! {
 }
 
 fn main() {
-    assert_eq!(Functions::conserved_names(FunctionsRegion::Everywhere), [""; 0]);
+    assert_eq!(Functions::default().of_region(FunctionsRegion::Everywhere).conserved, [""; 0]);
 }
