@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dmm_runtime::{Error, Statistics};
 
-use crate::problem::{Problem, Record, Run, Sink};
+use crate::problem::{AnyObserver, Problem, Record, Run};
 use crate::reference::Reference;
 
 /// What a run did to its conserved quantities.
@@ -74,7 +74,7 @@ struct Meter<'a> {
     progress: &'a mut dyn FnMut(f64),
 }
 
-impl Sink for Meter<'_> {
+impl AnyObserver for Meter<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let ulps = record.error_ulps();
         if ulps > self.ulps || ulps.is_nan() {

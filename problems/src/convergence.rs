@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use thiserror::Error;
 
 use crate::method::MethodName;
-use crate::problem::{Crossed, OutputTimes, Problem, Run, Sink};
+use crate::problem::{AnyObserver, Crossed, OutputTimes, Problem, Run};
 use crate::truth::{Origin, Truth, TruthError};
 
 /// Where in a segment the state is compared.
@@ -256,7 +256,7 @@ struct Collector {
     states: Vec<Vec<f64>>,
 }
 
-impl Sink for Collector {
+impl AnyObserver for Collector {
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
         self.crossings.push(crossed.t);
         ControlFlow::Continue(())

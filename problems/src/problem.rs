@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 
 use dmm_runtime::dynamic;
 pub use dmm_runtime::dynamic::{
-    Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism, Record, Sink,
-    Start,
+    AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism,
+    Record, Start,
 };
 use dmm_runtime::{Error, Metadata, Model, Statistics};
 
@@ -211,7 +211,7 @@ impl Problem {
     ///
     /// # Errors
     /// Whatever stops the integration.
-    pub fn integrate(&self, run: &Run, sink: &mut dyn Sink) -> Result<Statistics, Error> {
+    pub fn integrate(&self, run: &Run, sink: &mut dyn AnyObserver) -> Result<Statistics, Error> {
         let finish = self.system.integrate(run, &run.from(), sink)?;
         Ok(finish.statistics)
     }

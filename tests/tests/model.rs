@@ -3,8 +3,8 @@
 use dmm_problems::problem::Description;
 use dmm_problems::registry::{SystemVisitor, visit_systems};
 use dmm_runtime::dynamic::{
-    AnySystem, Crossed, Erased, Finish, InitialValue, MethodChoice, MethodVisitor, Parallelism,
-    Sink, Start, Unobserved,
+    AnyObserver, AnySystem, Crossed, Erased, Finish, InitialValue, MethodChoice, MethodVisitor,
+    Parallelism, Start, Unobserved,
 };
 use dmm_runtime::{Best, Error, Model, Symmetric, System, Taylor};
 use std::ops::ControlFlow;
@@ -207,7 +207,7 @@ fn ensembles_and_observers_have_the_states_of_the_system_alone() {
             conserved size = x^2 + y^2 + z^2; conserved energy = x^2 + y^2/2; }",
     );
     struct Lengths(usize);
-    impl Sink for Lengths {
+    impl AnyObserver for Lengths {
         fn record(&mut self, record: &dmm_runtime::dynamic::Record<'_>) -> ControlFlow<()> {
             assert_eq!((record.x.len(), record.psi.len()), (3, 2));
             self.0 += 1;

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use super::AnySystem;
 use super::method::{MethodChoice, MethodVisitor};
 use super::run::{
-    Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism, Record, Sink,
-    Start,
+    AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism,
+    Record, Start,
 };
 use crate::arithmetic::{Time, Vector};
 use crate::contract::{Dynamics, DynamicsVisitor, Guards, Metadata, System};
@@ -85,21 +85,25 @@ impl<Sys: System<N>, const N: usize> Erased<Sys, N> {
     }
 }
 
-/// An integration that a sink observes.
+/// An integration that is observed.
 struct Observed<'a, Sys, const N: usize> {
     erased: &'a Erased<Sys, N>,
     from: &'a InitialValue,
-    sink: &'a mut dyn Sink,
+    observer: &'a mut dyn AnyObserver,
 }
 
 impl<Sys: System<N>, const N: usize> MethodVisitor for Observed<'_, Sys, N> {
     type Output = Result<Finish, Error>;
 
     fn visit<Met: Method>(self, method: Met) -> Self::Output {
-        let Self { erased, from, sink } = self;
+        let Self {
+            erased,
+            from,
+            observer,
+        } = self;
         let mut forwarding = Forwarding {
-            wants_records: sink.wants_records(),
-            sink,
+            wants_records: observer.wants_records(),
+            observer,
             erased,
             output_times: &from.output_times,
             outputs: 0,
@@ -131,9 +135,9 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Silent<'_, Sys, N> {
     }
 }
 
-/// Tells a [`Sink`] what the runtime tells its observer.
+/// Tells a [`AnyObserver`] what the runtime tells its observer.
 struct Forwarding<'a, Sys, const N: usize> {
-    sink: &'a mut dyn Sink,
+    observer: &'a mut dyn AnyObserver,
     wants_records: bool,
     erased: &'a Erased<Sys, N>,
     output_times: &'a OutputTimes,
@@ -154,7 +158,7 @@ impl<Sys: System<N>, const N: usize> Forwarding<'_, Sys, N> {
         if self.level.is_empty() {
             self.level.clone_from(&self.psi);
         }
-        self.sink.record(&Record {
+        self.observer.record(&Record {
             t,
             x: self.erased.slice(&x),
             region: Sys::index(region),
@@ -178,7 +182,7 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_,
     fn transition(&mut self, transition: &Transition<Sys::Region, N>) -> ControlFlow<()> {
         self.level.clear();
         self.size.clear();
-        self.sink.transition(&Crossed {
+        self.observer.transition(&Crossed {
             t: transition.t,
             x: self.erased.slice(&transition.x).to_vec(),
             interface: transition.interface,
@@ -195,7 +199,7 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_,
 
     fn output(&mut self, point: &Point<Sys::Region, N>) {
         self.outputs += 1;
-        self.sink.output(point.t, self.erased.slice(&point.x));
+        self.observer.output(point.t, self.erased.slice(&point.x));
         if self.wants_records {
             // who wants to stop here stops at the end of the step
             let _ = self.record(point, true);
@@ -365,18 +369,26 @@ impl<C: MethodChoice, Sys: System<N>, const N: usize> AnySystem<C> for Erased<Sy
         &self,
         method: &C,
         from: &InitialValue,
-        sink: &mut dyn Sink,
+        observer: &mut dyn AnyObserver,
     ) -> Result<Finish, Error> {
         let erased = self;
-        method.visit(Observed { erased, from, sink })
+        method.visit(Observed {
+            erased,
+            from,
+            observer,
+        })
     }
 
     fn integrate_silently(&self, method: &C, from: &InitialValue) -> Result<Finish, Error> {
         let erased = self;
         let finish = method.visit_unobserved(Silent { erased, from });
         finish.unwrap_or_else(|| {
-            let sink = &mut super::Unobserved;
-            method.visit(Observed { erased, from, sink })
+            let observer = &mut super::Unobserved;
+            method.visit(Observed {
+                erased,
+                from,
+                observer,
+            })
         })
     }
 

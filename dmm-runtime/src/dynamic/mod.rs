@@ -62,8 +62,8 @@ use crate::error::Error;
 pub use erased::Erased;
 pub use method::{MethodChoice, MethodVisitor};
 pub use run::{
-    Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism, Record, Sink,
-    Start, Unobserved,
+    AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism,
+    Record, Start, Unobserved,
 };
 
 /// A system of any dimension, with its present parameters. C chooses the methods.
@@ -86,7 +86,7 @@ pub trait AnySystem<C>: Debug + Send + Sync {
     fn switching_function(&self, interface: usize, t: f64, x: &[f64]) -> f64;
     /// ψ(t, x), the quantities that a region conserves.
     fn conserved(&self, region: usize, t: f64, x: &[f64]) -> Vec<f64>;
-    /// Integrates, and tells `sink` of it.
+    /// Integrates, and tells `observer` of it.
     ///
     /// # Errors
     /// Bad input, or whatever stops the integration.
@@ -94,7 +94,7 @@ pub trait AnySystem<C>: Debug + Send + Sync {
         &self,
         method: &C,
         from: &InitialValue,
-        sink: &mut dyn Sink,
+        observer: &mut dyn AnyObserver,
     ) -> Result<Finish, Error>;
     /// Integrates without telling anybody, which is faster with uniform steps.
     ///

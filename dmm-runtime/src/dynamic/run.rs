@@ -27,7 +27,7 @@ impl InitialValue {
     }
 }
 
-/// Times at which [`Sink::output`] is called.
+/// Times at which [`AnyObserver::output`] is called.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub enum OutputTimes {
     /// None.
@@ -170,7 +170,7 @@ pub struct Crossed {
 }
 
 /// What listens to a run.
-pub trait Sink {
+pub trait AnyObserver {
     /// A point: the end of a step, at a transition one with each region, and each time of
     /// output.
     fn record(&mut self, _record: &Record<'_>) -> ControlFlow<()> {
@@ -185,7 +185,7 @@ pub trait Sink {
     /// The state at the next of [`InitialValue::output_times`], before it is recorded.
     fn output(&mut self, _t: f64, _x: &[f64]) {}
 
-    /// Whether [`Sink::record`] is to be called.
+    /// Whether [`AnyObserver::record`] is to be called.
     fn wants_records(&self) -> bool {
         true
     }
@@ -195,7 +195,7 @@ pub trait Sink {
 #[derive(Clone, Copy, Debug)]
 pub struct Unobserved;
 
-impl Sink for Unobserved {
+impl AnyObserver for Unobserved {
     fn wants_records(&self) -> bool {
         false
     }

@@ -8,7 +8,7 @@ use super::growth::Growth;
 use super::{Extent, Observe, Row, Setting, Verdict, kind_of};
 use crate::method::MethodName;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
-use crate::problem::{Problem, Record, Run, Sink};
+use crate::problem::{AnyObserver, Problem, Record, Run};
 use crate::registry::find;
 
 /// Evaluating ψ costs two or three roundings of its terms, the state's own one each.
@@ -78,7 +78,7 @@ struct Meter {
     wanted: u64,
 }
 
-impl Sink for Meter {
+impl AnyObserver for Meter {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.growth.offer(self.steps as f64, record.error_ulps());
         self.steps += 1;

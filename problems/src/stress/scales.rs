@@ -7,7 +7,7 @@
 use super::systems::{circle, quartic};
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::picture::Panel;
-use crate::problem::{OutputTimes, Problem, Run, Sink};
+use crate::problem::{AnyObserver, OutputTimes, Problem, Run};
 use dmm_runtime::Error;
 
 /// The states agree but for rounding errors; of a quartic ψ at the small end most digits are lost
@@ -94,7 +94,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 /// The last state.
 struct Last(Vec<f64>);
 
-impl Sink for Last {
+impl AnyObserver for Last {
     fn output(&mut self, _t: f64, x: &[f64]) {
         self.0 = x.to_vec();
     }

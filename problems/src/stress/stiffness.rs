@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::method::Control;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
-use crate::problem::{Crossed, Run, Sink};
+use crate::problem::{AnyObserver, Crossed, Run};
 use crate::registry::find;
 
 /// Steps in a half period of the stiffer side.
@@ -17,7 +17,7 @@ const STEPS: f64 = 50.0;
 #[derive(Default)]
 struct Crossings(Vec<f64>);
 
-impl Sink for Crossings {
+impl AnyObserver for Crossings {
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
         self.0.push(crossed.t);
         ControlFlow::Continue(())

@@ -14,7 +14,7 @@ use num_rational::BigRational;
 use super::systems::{circle, quartic};
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
-use crate::problem::{Crossed, Problem, Run, Sink};
+use crate::problem::{AnyObserver, Crossed, Problem, Run};
 
 /// Steps in the half turn before the wall.
 const STEPS: f64 = 200.0;
@@ -52,7 +52,7 @@ struct Count {
     first: Option<f64>,
 }
 
-impl Sink for Count {
+impl AnyObserver for Count {
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
         self.crossings += 1;
         self.first.get_or_insert(crossed.t);

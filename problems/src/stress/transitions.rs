@@ -14,7 +14,7 @@ use super::growth::Growth;
 use super::systems::warped;
 use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
-use crate::problem::{Crossed, Problem, Record, Run, Sink};
+use crate::problem::{AnyObserver, Crossed, Problem, Record, Run};
 use crate::reference::Reference;
 use crate::registry::find;
 use crate::systems::Elliptic;
@@ -78,7 +78,7 @@ struct Levels {
     entered: bool,
 }
 
-impl Sink for Levels {
+impl AnyObserver for Levels {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if let (true, Some(exact)) = (self.entered, self.exact.get(record.region)) {
             let error = (record.level[0] - exact).abs();
@@ -151,7 +151,7 @@ fn exact(problem: &Problem) -> Vec<f64> {
 /// ψ at the start.
 struct Start(f64);
 
-impl Sink for Start {
+impl AnyObserver for Start {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.0 = record.psi[0];
         ControlFlow::Break(())

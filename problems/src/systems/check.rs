@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::accurate;
 use crate::method::MethodName;
-use crate::problem::{Crossed, OutputTimes, Problem, Run, Sink};
+use crate::problem::{AnyObserver, Crossed, OutputTimes, Problem, Run};
 use crate::reference::Reference;
 use crate::registry;
 
@@ -29,7 +29,7 @@ struct Collector {
     states: Vec<Vec<f64>>,
 }
 
-impl Sink for Collector {
+impl AnyObserver for Collector {
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
         self.crossings.push((crossed.t, crossed.to));
         ControlFlow::Continue(())

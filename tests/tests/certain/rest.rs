@@ -35,7 +35,7 @@ pws! {
 
 pws! {
     /// A sink.
-    pub system Sink {
+    pub system AnyObserver {
         state x, y;
         param a = -1, b = 3, c = -3, d = -0.5;
         der(x) = a*x + b*y;
@@ -109,7 +109,7 @@ fn sinks(scheme: impl Method) {
             continue;
         }
         count += 1;
-        let system = Sink { a, b, c, d };
+        let system = AnyObserver { a, b, c, d };
         let found = run(&system, scheme.clone(), [random(), random()], 200.0).unwrap();
         assert!(found.point.x.norm() < 1e-3, "{system:?} {:?}", found.point);
     }

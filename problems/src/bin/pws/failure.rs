@@ -36,7 +36,7 @@ pub(crate) enum Failure {
     /// The integration stopped before its end.
     #[error("{0}")]
     Stopped(String),
-    /// NoSink reads standard output any more.
+    /// Nothing reads standard output any more.
     #[error("standard output is closed")]
     ReaderGone,
 }

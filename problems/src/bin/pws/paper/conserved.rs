@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use dmm_problems::method::MethodName;
 use dmm_problems::picture::Picture;
-use dmm_problems::problem::{Problem, Record, Run, Sink};
+use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 use dmm_problems::reference::Reference;
 
 use super::Report;
@@ -132,7 +132,7 @@ struct Errors<'a> {
     worst: f64,
 }
 
-impl Sink for Errors<'_> {
+impl AnyObserver for Errors<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let error = record.psi[0] - self.exact[record.region];
         self.thinned.offer(record.t, error);

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use dmm_problems::picture::Picture;
-use dmm_problems::problem::{Problem, Record, Run, Sink};
+use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 
 use super::{Report, SYSTEMS};
 use crate::failure::Failure;
@@ -77,7 +77,7 @@ struct Near {
     records: u64,
 }
 
-impl Sink for Near {
+impl AnyObserver for Near {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if record.x.iter().any(|x| x.abs() > NEAR) {
             return ControlFlow::Break(());

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::problem::{Crossed, OutputTimes, Problem, Record, Run, Sink};
+use dmm_problems::problem::{AnyObserver, Crossed, OutputTimes, Problem, Record, Run};
 use indicatif::ProgressBar;
 
 use crate::failure::Failure;
@@ -259,7 +259,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Sink for Recorder<'_> {
+impl AnyObserver for Recorder<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let result = self.store(record);
         self.keep(record);
