@@ -69,6 +69,13 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
          in turn",
         arguments.rounds
     )?;
+    if !cfg!(feature = "compiled") {
+        writeln!(
+            std::io::stdout(),
+            "all but harmonic and elliptic are compiled at run time, at some times the cost of generated \
+             code; built with `--features compiled` all are generated"
+        )?;
+    }
     output::announce(&[csv.finish()?])?;
     output::announce(&[picture(panels, &arguments.out, arguments.format)?])?;
     Ok(())
