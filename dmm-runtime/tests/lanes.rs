@@ -101,7 +101,7 @@ fn assert_same<Sys: System<N>, const N: usize>(system: Sys, initial: [f64; N], s
                         .expect("a run that ends");
                     let what = format!(
                         "{} {number} to {t_end} by {tolerance:e}, {level_correction}",
-                        Sys::NAME
+                        system.metadata().name
                     );
                     assert_eq!(
                         lane.statistics.transitions, alone.statistics.transitions,
