@@ -1,12 +1,41 @@
 //! The schemes by name: a row of `methods!` is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
-use dmm_runtime::dynamic::{MethodChoice, MethodVisitor};
+use dmm_runtime::dynamic::{InitialValue, MethodChoice, MethodVisitor, OutputTimes};
 use dmm_runtime::{Best, Composed, Symmetric, Taylor, Uniform};
 
 use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
-use crate::problem::Run;
+
+/// An integration to be made from t = 0.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Run {
+    /// The scheme.
+    pub method: MethodName,
+    /// τ, if the scheme has uniform steps.
+    pub step_size: f64,
+    /// The tolerance, if the scheme has one.
+    pub tolerance: f64,
+    /// Whether the level of ψ is kept (as it is meant to be) or left to rounding.
+    pub level_correction: bool,
+    /// Initial state.
+    pub initial: Vec<f64>,
+    /// End time.
+    pub t_end: f64,
+    /// Times of output besides the steps.
+    pub output_times: OutputTimes,
+}
+
+impl Run {
+    /// The initial value problem.
+    pub(crate) fn from(&self) -> InitialValue {
+        InitialValue {
+            initial: self.initial.clone(),
+            t_end: self.t_end,
+            output_times: self.output_times.clone(),
+        }
+    }
+}
 
 /// What decides the steps of a scheme.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -13,6 +13,7 @@ pub use dmm_runtime::dynamic::{
 use dmm_runtime::{Error, Metadata, Model, Statistics};
 
 use crate::method::MethodName;
+pub use crate::method::Run;
 
 /// Of a run, unless another is given.
 pub const DEFAULT_TOLERANCE: f64 = 1e-12;
@@ -37,36 +38,6 @@ pub struct Description {
     pub longest: Option<f64>,
     /// The reference solution (JSON), where there is one.
     pub reference: Option<&'static str>,
-}
-
-/// An integration to be made from t = 0.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Run {
-    /// The scheme.
-    pub method: MethodName,
-    /// τ, if the scheme has uniform steps.
-    pub step_size: f64,
-    /// The tolerance, if the scheme has one.
-    pub tolerance: f64,
-    /// Whether the level of ψ is kept (as it is meant to be) or left to rounding.
-    pub level_correction: bool,
-    /// Initial state.
-    pub initial: Vec<f64>,
-    /// End time.
-    pub t_end: f64,
-    /// Times of output besides the steps.
-    pub output_times: OutputTimes,
-}
-
-impl Run {
-    /// The initial value problem.
-    fn from(&self) -> InitialValue {
-        InitialValue {
-            initial: self.initial.clone(),
-            t_end: self.t_end,
-            output_times: self.output_times.clone(),
-        }
-    }
 }
 
 /// A system whose methods are those of a [`Run`].

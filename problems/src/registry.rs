@@ -131,15 +131,6 @@ pub fn find(name: &str) -> Result<Problem, Unknown> {
     Ok(entry(name)?.problem())
 }
 
-/// The same with a system that is compiled at run time, whether the program has it or not.
-///
-/// # Errors
-/// [`Unknown`], with the closest name.
-pub fn find_tape(name: &str) -> Result<Problem, Unknown> {
-    let entry = entry(name)?;
-    Ok(Problem::new(*entry.description, (entry.tape)()))
-}
-
 fn entry(name: &str) -> Result<&'static Entry, Unknown> {
     let wanted = name.to_lowercase().replace('-', "_");
     let mut entries = ENTRIES.iter();

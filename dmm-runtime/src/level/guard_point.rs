@@ -203,9 +203,10 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let mut before = n(f64::INFINITY);
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
-            let off = match corrects {
-                true => level.correction(dynamics, self.time, &self.state, &weights),
-                false => none,
+            let off = if corrects {
+                level.correction(dynamics, self.time, &self.state, &weights)
+            } else {
+                none
             };
             let size = self.remove(&off, moves);
             self.read(dynamics, guard);
@@ -221,13 +222,12 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
             self.value = switching_in_pairs(dynamics, guard, self.time, &self.state);
-            let off = match corrects {
-                true => {
-                    let (_, multiplier) = dynamics.multiplier(self.time.value, &self.state.x);
-                    let residual = level.residual(dynamics, self.time, &self.state);
-                    level.towards(&multiplier, &residual, &weights)
-                }
-                false => none,
+            let off = if corrects {
+                let (_, multiplier) = dynamics.multiplier(self.time.value, &self.state.x);
+                let residual = level.residual(dynamics, self.time, &self.state);
+                level.towards(&multiplier, &residual, &weights)
+            } else {
+                none
             };
             let size = self.remove(&off, moves);
             moves = moves.and(size.at_most(small).not());

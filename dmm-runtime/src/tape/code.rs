@@ -133,6 +133,20 @@ pub(super) fn inputs(inputs: &[Input]) -> Vec<(Register, Variable)> {
 }
 
 impl Stage {
+    /// Evaluates it at (t, x).
+    #[inline]
+    pub(super) fn run_at<S: Scalar, const N: usize>(
+        &self,
+        registers: &mut [S],
+        t: S,
+        x: &Vector<S, N>,
+    ) {
+        self.run(registers, |variable| match variable {
+            Variable::State(index) => x[index],
+            _ => t,
+        });
+    }
+
     /// Evaluates it.
     #[inline]
     pub(super) fn run<S: Scalar>(&self, registers: &mut [S], variable: impl Fn(Variable) -> S) {
@@ -141,6 +155,14 @@ impl Stage {
         }
         operation::run(&self.operations, registers);
     }
+}
+
+/// Registers over other scalars.
+pub(super) fn converted<S: Scalar, Other: Scalar>(registers: &[S]) -> Vec<Other> {
+    let registers = registers.iter();
+    registers
+        .map(|value| Other::from_f64(value.to_f64()))
+        .collect()
 }
 
 fn column(ids: &[Id]) -> Column {

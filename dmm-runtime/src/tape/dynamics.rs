@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use dmm_compiler::program::{Quantity, Variable};
 
-use super::code::{Code, Routine, Stage, Values, matrix, vector};
+use super::code::{Code, Routine, Stage, Values, converted, matrix, vector};
 use super::guards::{TapeGuards, TapeSides};
 use super::series::SeriesCode;
 use crate::arithmetic::{Matrix, MinimalNorm, Scalar, Vector};
@@ -59,10 +59,7 @@ impl<S: Scalar, const N: usize, const M: usize> TapeDynamics<S, N, M> {
             return none();
         };
         let registers = &mut **self.registers.borrow_mut();
-        routine.first.run(registers, |variable| match variable {
-            Variable::State(index) => x[index],
-            _ => t,
-        });
+        routine.first.run_at(registers, t, x);
         results(registers, &routine.results)
     }
 
@@ -316,12 +313,4 @@ impl<S: Scalar, const N: usize, const M: usize> Dynamics<S, N, M> for TapeDynami
             .series
             .solution::<S, K, N, P>(k, t, registers, series);
     }
-}
-
-/// Registers over other scalars.
-pub(super) fn converted<S: Scalar, Other: Scalar>(registers: &[S]) -> Vec<Other> {
-    let registers = registers.iter();
-    registers
-        .map(|value| Other::from_f64(value.to_f64()))
-        .collect()
 }

@@ -3,10 +3,9 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use dmm_compiler::program::{Quantity, Variable};
+use dmm_compiler::program::Quantity;
 
-use super::code::{Code, Values, vector};
-use super::dynamics::converted;
+use super::code::{Code, Values, converted, vector};
 use super::series::SeriesCode;
 use crate::arithmetic::{Scalar, Vector};
 use crate::contract::{Guards, Side};
@@ -101,10 +100,7 @@ impl<S: Scalar> TapeGuards<S> {
     ) -> Option<T> {
         let routine = self.sides.guards.as_ref()?.code.get(quantity)?;
         let registers = &mut **self.registers.borrow_mut();
-        routine.first.run(registers, |variable| match variable {
-            Variable::State(index) => x[index],
-            _ => t,
-        });
+        routine.first.run_at(registers, t, x);
         results(registers, &routine.results)
     }
 

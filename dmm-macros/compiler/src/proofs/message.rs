@@ -2,7 +2,7 @@
 //! the residual, a point, and the value there.
 
 use super::DomainCondition;
-use super::conservation::{FEWEST_POINTS, MOST_TRIALS, Trials};
+use super::trials::{FEWEST_POINTS, MOST_TRIALS, Trials};
 use crate::algebra::{Counterexample, Dag, Id, Name, to_text};
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::proofs as codes;

@@ -26,6 +26,7 @@ mod place;
 mod points;
 mod proved;
 mod signs;
+mod trials;
 
 #[cfg(test)]
 mod properties;

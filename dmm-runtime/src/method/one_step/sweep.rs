@@ -97,8 +97,5 @@ impl<const N: usize> Sweeps<N> {
 
 /// The larger of two, or NaN if one is.
 fn larger(a: f64, b: f64) -> f64 {
-    match a >= b {
-        true => a,
-        false => b,
-    }
+    if a >= b { a } else { b }
 }
