@@ -129,14 +129,27 @@ pub enum ErrorKind {
         /// dg/dt under the field of `to`.
         rate_to: f64,
     },
-    /// A start on an interface from which both vector fields lead away.
+    /// At a point of interfaces from which the vector fields of several regions lead away: each of
+    /// them is a solution.
     #[error(
-        "the start is on interface `{interface}` and the vector fields of both sides lead away \
-         from it: name the region to start in"
+        "the point is on {interfaces}, and the vector fields of several regions lead away from \
+         it: {regions}; name the region to go on in"
     )]
-    AmbiguousStart {
-        /// Interface.
-        interface: &'static str,
+    Ambiguous {
+        /// The interfaces.
+        interfaces: String,
+        /// The regions.
+        regions: String,
+    },
+    /// At a point of several interfaces at once none of the regions around has a vector field that
+    /// leads into it.
+    #[error(
+        "the point is on {interfaces} at once, and no region around it has a vector field that \
+         leads into it: the solution slides or rests there, which is not supported"
+    )]
+    Intersection {
+        /// The interfaces.
+        interfaces: String,
     },
     /// No region has the signs of the switching functions there.
     #[error("the point lies in no region")]
@@ -215,6 +228,15 @@ impl ErrorKind {
 }
 
 impl Error {
+    /// The same in a region.
+    #[cold]
+    pub(crate) fn in_region(mut self, region: &'static str) -> Self {
+        if let Some(place) = &mut self.place {
+            place.region = region;
+        }
+        self
+    }
+
     /// The same in a step that starts there.
     #[cold]
     pub(crate) fn in_step(mut self, step_size: f64) -> Self {

@@ -147,7 +147,7 @@ impl Problem {
     pub fn region_on_side(&self, sign: f64) -> Option<usize> {
         let mut regions = self.metadata().regions.iter();
         regions.position(|region| {
-            let side = region.sides.first();
+            let side = region.sides.first().copied().flatten();
             side.is_some_and(|side| side.sign() == sign)
         })
     }

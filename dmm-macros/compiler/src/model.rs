@@ -113,6 +113,16 @@ pub enum Sign {
     Positive,
 }
 
+impl Sign {
+    /// The other one.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Negative => Self::Positive,
+            Self::Positive => Self::Negative,
+        }
+    }
+}
+
 /// The switching functions of a region's sides, each with its sign in the region.
 pub fn sides(interfaces: &[Interface], region: &Region) -> Vec<(Id, Sign)> {
     let side = |side: &Side| {

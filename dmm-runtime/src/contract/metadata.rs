@@ -27,9 +27,11 @@ pub struct RegionMetadata {
     pub name: &'static str,
     /// The names of the quantities that are conserved in it.
     pub conserved: &'static [&'static str],
-    /// On which side of each interface it lies: the sign of g.
-    pub sides: &'static [Side],
-    /// The index of the region on the other side of each interface, if there is one.
+    /// On which side of each interface it lies: the sign of g; nothing where the interface does not
+    /// bound it.
+    pub sides: &'static [Option<Side>],
+    /// The index of the region on the other side of each interface that bounds it, where it is
+    /// the only one.
     pub neighbours: &'static [Option<usize>],
 }
 

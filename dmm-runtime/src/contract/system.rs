@@ -62,17 +62,21 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
 
     /// The region on these sides of the interfaces, in the order of [`Metadata::interfaces`].
     fn region_on(&self, sides: &[Side]) -> Option<Self::Region> {
-        self.regions()
-            .find(|&region| self.of_region(region).sides == sides)
+        self.regions().find(|&region| {
+            let own = self.of_region(region).sides;
+            let mut pairs = own.iter().zip(sides);
+            pairs.all(|(own, side)| own.is_none_or(|own| own == *side))
+        })
     }
 
-    /// On which side of an interface a region lies.
+    /// On which side of an interface a region lies, if the interface bounds it.
     #[inline]
     fn side(&self, region: Self::Region, interface: usize) -> Option<Side> {
-        self.of_region(region).sides.get(interface).copied()
+        self.of_region(region).sides.get(interface).copied()?
     }
 
-    /// The region on the other side of an interface.
+    /// The region on the other side of an interface that bounds a region, if it is the only one:
+    /// where several regions lie there, the other interfaces decide between them.
     #[inline]
     fn neighbour(&self, region: Self::Region, interface: usize) -> Option<Self::Region> {
         let neighbour = self.of_region(region).neighbours.get(interface)?;

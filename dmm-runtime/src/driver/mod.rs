@@ -4,6 +4,7 @@
 //! [`Stepper`] pulls it a step at a time.
 
 mod accumulation;
+mod around;
 mod conditions;
 mod integrator;
 mod next;

@@ -1,39 +1,37 @@
-//! The next mode: decided at a point of an interface by the rates dg/dt of both sides.
+//! The next mode: decided at a point of an interface by the rates dg/dt of the fields around it.
 
+use super::around::Around;
 use super::conditions::check_conditions;
 use super::reading::Reading;
 use crate::arithmetic::{State, Time};
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
+use crate::method::Active;
 use crate::output::Transition;
 
-/// The transition at a point of an interface, from a region that is left at a rate, if the field
-/// of the region entered leads into it.
+/// The transition at a point of an interface, from a region that is left at a rate, into the region
+/// whose field leads into it; and the interfaces that bound it there.
 pub(crate) fn enter<Sys: System<N>, const N: usize>(
     system: &Sys,
     (from, rate_from): (Sys::Region, f64),
     interface: usize,
     time: Time,
     state: &State<N>,
-) -> Result<Transition<Sys::Region, N>, Error> {
+) -> Result<(Transition<Sys::Region, N>, Active), Error> {
     let (t, x) = (time.value, &state.x);
-    let Some(to) = system.neighbour(from, interface) else {
-        return Err(no_region(system, from, t, x));
+    let (to, active) = if let [_] = system.metadata().interfaces {
+        let to = across(system, (from, rate_from), interface, t, x)?;
+        (to, Active::new(Some(interface)))
+    } else {
+        let around = Around::new(system, Some(interface), t, x)?;
+        let entered = around.entered();
+        let (to, active) = entered.map_err(|error| error.in_region(system.of_region(from).name))?;
+        let rate = Reading::new(system, to, interface, t, x).rate;
+        ((to, rate), active)
     };
-    let rate_to = Reading::new(system, to, interface, t, x).rate;
-    let inwards = system.side(to, interface).map_or(0.0, Side::sign);
-    let enters = rate_to * inwards > 0.0;
-    if !enters {
-        let sides = BothSides::new(system, (from, rate_from), interface, t, x)?;
-        let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
-        return Err(if slides {
-            sides.sliding()
-        } else {
-            sides.tangential()
-        });
-    }
+    let (to, rate_to) = to;
     check_conditions(system, to, t, x)?;
-    Ok(Transition {
+    let transition = Transition {
         t,
         time,
         x: state.x,
@@ -43,7 +41,29 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
         to,
         rate_from,
         rate_to,
-    })
+    };
+    Ok((transition, active))
+}
+
+/// The region on the other side of the only interface, if its field leads into it, and dg/dt there.
+#[inline]
+fn across<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    (from, rate_from): (Sys::Region, f64),
+    interface: usize,
+    t: f64,
+    x: &Vector<f64, N>,
+) -> Result<(Sys::Region, f64), Error> {
+    let Some(to) = system.neighbour(from, interface) else {
+        return Err(no_region(system, from, t, x));
+    };
+    let rate_to = Reading::new(system, to, interface, t, x).rate;
+    let inwards = system.side(to, interface).map_or(0.0, Side::sign);
+    let enters = rate_to * inwards > 0.0;
+    if enters {
+        return Ok((to, rate_to));
+    }
+    Err(BothSides::new(system, (from, rate_from), interface, t, x)?.stays())
 }
 
 /// There is no region on the other side.
@@ -58,23 +78,23 @@ fn no_region<Sys: System<N>, const N: usize>(
 }
 
 /// A point of an interface with the rates dg/dt = ∂ₜg + ∇g·f of both sides.
-pub(crate) struct BothSides<'a, Sys: System<N>, const N: usize> {
+pub(super) struct BothSides<'a, Sys: System<N>, const N: usize> {
     system: &'a Sys,
     t: f64,
     x: &'a Vector<f64, N>,
     interface: usize,
-    /// The region that the solution comes from.
+    /// A region.
     from: Sys::Region,
     rate_from: f64,
     /// The region on the other side.
-    pub(crate) to: Sys::Region,
-    pub(crate) rate_to: f64,
+    to: Sys::Region,
+    rate_to: f64,
 }
 
 impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
     /// Those of a region, whose rate is known, and its neighbour.
     #[cold]
-    pub(crate) fn new(
+    pub(super) fn new(
         system: &'a Sys,
         (from, rate_from): (Sys::Region, f64),
         interface: usize,
@@ -95,47 +115,33 @@ impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
         })
     }
 
-    /// Both fields point at the interface.
+    /// The error of a solution that neither of the fields leads away: both point at the interface,
+    /// or one is tangential to it.
     #[cold]
-    pub(crate) fn sliding(&self) -> Error {
-        self.error(ErrorKind::Sliding {
-            interface: self.interface_name(),
-            from: self.name(self.from),
-            to: self.name(self.to),
-            rate_from: self.rate_from,
-            rate_to: self.rate_to,
-        })
-    }
-
-    /// A field is tangential to the interface.
-    #[cold]
-    pub(crate) fn tangential(&self) -> Error {
-        self.error(ErrorKind::Tangential {
-            interface: self.interface_name(),
-            from: self.name(self.from),
-            to: self.name(self.to),
-            rate_from: self.rate_from,
-            rate_to: self.rate_to,
-        })
-    }
-
-    /// Both fields lead away from the interface.
-    #[cold]
-    pub(crate) fn ambiguous(&self) -> Error {
-        self.error(ErrorKind::AmbiguousStart {
-            interface: self.interface_name(),
-        })
-    }
-
-    fn interface_name(&self) -> &'static str {
-        self.system.metadata().guard_name(self.interface)
-    }
-
-    fn name(&self, region: Sys::Region) -> &'static str {
-        self.system.of_region(region).name
-    }
-
-    fn error(&self, kind: ErrorKind) -> Error {
-        kind.at(self.t, self.x.as_slice(), self.name(self.from))
+    pub(super) fn stays(&self) -> Error {
+        let inwards = self.system.side(self.to, self.interface);
+        let inwards = inwards.map_or(0.0, Side::sign);
+        let interface = self.system.metadata().guard_name(self.interface);
+        let [from, to] = [self.from, self.to].map(|region| self.system.of_region(region).name);
+        let (rate_from, rate_to) = (self.rate_from, self.rate_to);
+        let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
+        let kind = if slides {
+            ErrorKind::Sliding {
+                interface,
+                from,
+                to,
+                rate_from,
+                rate_to,
+            }
+        } else {
+            ErrorKind::Tangential {
+                interface,
+                from,
+                to,
+                rate_from,
+                rate_to,
+            }
+        };
+        kind.at(self.t, self.x.as_slice(), from)
     }
 }

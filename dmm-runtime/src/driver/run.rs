@@ -16,7 +16,7 @@ use super::start::Start;
 use crate::arithmetic::{State, Time};
 use crate::contract::{System, Vector};
 use crate::error::Error;
-use crate::method::{Active, Cursor, Ended, Failure, Method, Observed, Silent, Statistics};
+use crate::method::{Cursor, Ended, Failure, Method, Observed, Silent, Statistics};
 use crate::output::{End, Observer, Point, Transition};
 
 /// An integration under way.
@@ -38,9 +38,8 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         t_end: f64,
     ) -> Self {
         let (time, state) = (Time::new(t0), State::new(x0));
-        let active = Active::new(start.interface);
         Self {
-            cursor: Cursor::new(time, state, Sys::index(start.region), active),
+            cursor: Cursor::new(time, state, Sys::index(start.region), start.on),
             region: start.region,
             memory: method.memory(t0, t_end),
             statistics: Statistics::default(),
@@ -147,10 +146,10 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
             return Err(condition_error(condition, region, time.value, &state.x));
         }
         (self.accumulation).count(system, (guard, self.region), *time, &state.x)?;
-        let transition = enter(system, (self.region, rate), guard, *time, state)?;
+        let (transition, active) = enter(system, (self.region, rate), guard, *time, state)?;
         self.statistics.transitions += 1;
         self.region = transition.to;
-        self.cursor.enter(Sys::index(transition.to), guard);
+        self.cursor.enter(Sys::index(transition.to), active);
         Ok(transition)
     }
 

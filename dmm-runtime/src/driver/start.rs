@@ -3,19 +3,20 @@
 //! Away from the interfaces the signs of the switching functions decide. On one of them the
 //! rates dg/dt = ∂ₜg + ∇g·f of both sides do: both up or both down is the region that they
 //! lead into; both inwards would slide; both outwards has two solutions, and the caller has
-//! to name the region.
+//! to name the region. On several of them see the module `around`.
 
-use super::next::BothSides;
+use super::around::Around;
 use super::reading::Reading;
-use crate::contract::{Side, System, Vector};
+use crate::contract::{System, Vector};
 use crate::error::{Error, ErrorKind};
+use crate::method::Active;
 
 /// Where an integration starts.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Start<R> {
     pub(crate) region: R,
-    /// The interface that it starts on.
-    pub(crate) interface: Option<usize>,
+    /// The interfaces that it starts on.
+    pub(crate) on: Active,
 }
 
 /// Determines the region of a start at (t, x) that names none.
@@ -24,58 +25,8 @@ pub(crate) fn find_region<Sys: System<N>, const N: usize>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
-    let no_region = || ErrorKind::NoRegion.at(t, x.as_slice(), "");
-    let interfaces = system.metadata().interfaces.len();
-    let mut sides = Vec::with_capacity(interfaces);
-    let mut on = None;
-    let first = system.region(0).ok_or_else(no_region)?;
-    for interface in 0..interfaces {
-        let reading = Reading::new(system, first, interface, t, x);
-        if reading.is_zero() {
-            on = Some(interface);
-            sides.push(Side::Positive);
-        } else if reading.value.is_nan() {
-            return Err(no_region());
-        } else if reading.value > 0.0 {
-            sides.push(Side::Positive);
-        } else {
-            sides.push(Side::Negative);
-        }
-    }
-    let region = system.region_on(&sides).ok_or_else(no_region)?;
-    match on {
-        None => Ok(Start {
-            region,
-            interface: None,
-        }),
-        Some(interface) => decide_by_rates(system, region, interface, t, x),
-    }
-}
-
-/// Decides between `above` (g > 0) and its neighbour at a point on `interface`.
-fn decide_by_rates<Sys: System<N>, const N: usize>(
-    system: &Sys,
-    above: Sys::Region,
-    interface: usize,
-    t: f64,
-    x: &Vector<f64, N>,
-) -> Result<Start<Sys::Region>, Error> {
-    let up = Reading::new(system, above, interface, t, x).rate;
-    let both = BothSides::new(system, (above, up), interface, t, x)?;
-    let (below, down) = (both.to, both.rate_to);
-    let start = |region| {
-        Ok(Start {
-            region,
-            interface: Some(interface),
-        })
-    };
-    match (up > 0.0, up < 0.0, down > 0.0, down < 0.0) {
-        (true, _, true, _) => start(above),
-        (_, true, _, true) => start(below),
-        (_, true, true, _) => Err(both.sliding()),
-        (true, _, _, true) => Err(both.ambiguous()),
-        _ => Err(both.tangential()),
-    }
+    let (region, on) = Around::new(system, None, t, x)?.entered()?;
+    Ok(Start { region, on })
 }
 
 /// Checks a region that the caller named against the signs at (t, x).
@@ -85,8 +36,9 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
-    let mut on = None;
+    let mut on = Active::default();
     for (interface, side) in system.of_region(region).sides.iter().enumerate() {
+        let Some(side) = side else { continue };
         let reading = Reading::new(system, region, interface, t, x);
         if reading.is_zero() {
             if side.sign() * reading.rate <= 0.0 {
@@ -97,7 +49,7 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
                                   its interface",
                 }.into());
             }
-            on = Some(interface);
+            on.insert(interface);
         } else if side.sign() * reading.value < 0.0 || reading.value.is_nan() {
             return Err(ErrorKind::InvalidInput {
                 what: "region",
@@ -107,8 +59,5 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
             .into());
         }
     }
-    Ok(Start {
-        region,
-        interface: on,
-    })
+    Ok(Start { region, on })
 }

@@ -9,7 +9,7 @@ use super::start::find_region;
 use crate::arithmetic::State;
 use crate::contract::{System, Vector};
 use crate::error::Error;
-use crate::method::{Active, Cursor, Ended, Method, Statistics};
+use crate::method::{Cursor, Ended, Method, Statistics};
 use crate::output::{Observer, Point, Transition};
 
 /// What a [`Stepper`] has done.
@@ -164,7 +164,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
         let start = find_region(&system, t, &x)?;
         check_conditions(&system, start.region, t, &x)?;
         let mode = Sys::index(start.region);
-        self.run.cursor = Cursor::new(time, state, mode, Active::new(start.interface));
+        self.run.cursor = Cursor::new(time, state, mode, start.on);
         self.run.region = start.region;
         self.run.memory = self.method.memory(t, self.t_end);
         self.system = system;

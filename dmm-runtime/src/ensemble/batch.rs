@@ -16,8 +16,8 @@ use crate::arithmetic::Scalar;
 use crate::contract::System;
 use crate::error::Error;
 use crate::events::ends::Decay;
-use crate::method::Ended;
 use crate::method::taylor::Taylor;
+use crate::method::{Ended, Several};
 use crate::output::Halted;
 
 /// What a queue waits for.
@@ -85,7 +85,8 @@ pub(super) struct Batch<'a, Sys: System<N>, const N: usize> {
     members: Vec<usize>,
     outcomes: Vec<Option<Outcome<Sys::Region, N>>>,
     queues: Queues,
-    /// By region and interface, the region on the other side.
+    /// By region and interface, the region on the other side, where no other interface decides on
+    /// it.
     neighbours: Vec<Option<(usize, Sys::Region)>>,
     register: Register<N>,
     /// The parameters in the lanes.
@@ -110,12 +111,14 @@ pub(super) fn run<Sys: System<N>, const N: usize>(
     batch.outcomes.into_iter().flatten().collect()
 }
 
-/// By region and interface, the region on the other side.
+/// By region and interface, the region on the other side, where no other interface decides on it.
 fn neighbours<Sys: System<N>, const N: usize>(system: &Sys) -> Vec<Option<(usize, Sys::Region)>> {
     let interfaces = system.metadata().interfaces.len();
     let of = |region| {
         (0..interfaces).map(move |interface| {
-            let other = system.neighbour(region, interface)?;
+            let other = system
+                .neighbour(region, interface)
+                .filter(|_| interfaces == 1)?;
             Some((Sys::index(other), other))
         })
     };
@@ -158,12 +161,10 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                 Err(halted) => batch.outcomes[index] = Some(Err(halted)),
                 Ok(trajectory) => {
                     let number = batch.trajectories.len();
-                    let region = Sys::index(trajectory.region);
-                    let queue = batch.queues.of(region, Job::Enter(trajectory.active));
-                    queue.push(number);
                     batch.parameters.extend(trajectory.system.parameters());
                     batch.trajectories.push(trajectory);
                     batch.members.push(index);
+                    batch.place(number);
                 }
             }
         }
@@ -303,25 +304,33 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             interface,
             self.neighbours[region * self.queues.interfaces + interface],
         ) {
-            Ok(region) => self
-                .queues
-                .of(region, Job::Enter(Some(interface)))
-                .push(number),
+            Ok(_) => self.place(number),
             Err(error) => self.finish(number, Err(error)),
+        }
+    }
+
+    /// Puts a trajectory where a region is entered into its queue.
+    fn place(&mut self, number: usize) {
+        let trajectory = &self.trajectories[number];
+        match trajectory.active.single() {
+            Ok(active) => {
+                let region = Sys::index(trajectory.region);
+                self.queues.of(region, Job::Enter(active)).push(number);
+            }
+            Err(Several) => self.step_alone(number),
         }
     }
 
     /// Goes on by the scalar method, to the next transition or the end.
     fn step_alone(&mut self, number: usize) {
-        let trajectory = &mut self.trajectories[number];
-        match trajectory.go_on(self.method, self.settings.end) {
-            Ok(Ended::AtGuard { guard, .. }) => {
-                let region = Sys::index(trajectory.region);
-                let job = Job::Enter(Some(guard));
-                self.queues.of(region, job).push(number);
+        loop {
+            let trajectory = &mut self.trajectories[number];
+            match trajectory.go_on(self.method, self.settings.end) {
+                Ok(Ended::AtGuard { .. }) if trajectory.active.single().is_err() => {}
+                Ok(Ended::AtGuard { .. }) => return self.place(number),
+                Ok(Ended::Finished | Ended::Stopped) => return self.finish(number, Ok(())),
+                Err(error) => return self.finish(number, Err(error)),
             }
-            Ok(Ended::Finished | Ended::Stopped) => self.finish(number, Ok(())),
-            Err(error) => self.finish(number, Err(error)),
         }
     }
 

@@ -5,7 +5,7 @@ use super::register::Register;
 use crate::arithmetic::{State, Time};
 use crate::contract::{System, Vector};
 use crate::driver::{Accumulation, Run, enter};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::method::taylor::{self, Taylor};
 use crate::method::{Active, Cursor, Ended, Statistics};
 use crate::output::{End, Halted, Point};
@@ -26,8 +26,8 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
     pub(super) time: Time,
     pub(super) state: State<N>,
     pub(super) region: Sys::Region,
-    /// The interface that it is on.
-    pub(super) active: Option<usize>,
+    /// The interfaces that it is on.
+    pub(super) active: Active,
     /// How it came there, until the region entered has been found to take it.
     pub(super) crossing: Option<Crossing<Sys::Region>>,
     pub(super) memory: taylor::Memory,
@@ -60,7 +60,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             time: Time::new(member.t0),
             state: State::new(member.x0),
             region: start.region,
-            active: start.interface,
+            active: start.on,
             crossing: None,
             memory: problem.memory(t_end),
             accumulation: Accumulation::new(Time::new(member.t0)),
@@ -98,7 +98,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         let (time, x) = (self.time, &self.state.x);
         self.accumulation
             .count(&self.system, (interface, self.region), time, x)?;
-        self.active = Some(interface);
+        self.active = Active::new(Some(interface));
         self.crossing = Some(Crossing {
             from: self.region,
             rate_from: self.rate,
@@ -108,31 +108,29 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
                 self.region = region;
                 Ok(index)
             }
-            None => Err(self.no_region()),
+            // the other interfaces decide with it
+            None => {
+                self.judge()?;
+                Ok(Sys::index(self.region))
+            }
         }
-    }
-
-    fn no_region(&self) -> Error {
-        let region = self.system.of_region(self.region).name;
-        ErrorKind::NoRegion.at(self.time.value, self.state.x.as_slice(), region)
     }
 
     /// The region entered has taken it.
     pub(super) fn arrived(&mut self) {
         self.statistics.transitions += u64::from(self.crossing.is_some());
         self.crossing = None;
-        self.active = None;
+        self.active = Active::default();
     }
 
     /// Judges the crossing that brought it here, if that is still to be done.
     fn judge(&mut self) -> Result<(), Error> {
-        if let (Some(crossing), Some(interface)) = (self.crossing, self.active) {
+        if let (Some(crossing), Ok(Some(interface))) = (self.crossing, self.active.single()) {
             let left = (crossing.from, crossing.rate_from);
+            self.region = crossing.from;
             let entered = enter(&self.system, left, interface, self.time, &self.state);
-            if let Err(error) = entered {
-                self.region = crossing.from;
-                return Err(error);
-            }
+            let (transition, active) = entered?;
+            (self.region, self.active) = (transition.to, active);
             self.statistics.transitions += 1;
             self.crossing = None;
         }
@@ -142,7 +140,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     /// Integrates until `until` or the first transition by the scalar method.
     pub(super) fn go_on(&mut self, method: &Taylor, until: f64) -> Result<Ended, Error> {
         self.judge()?;
-        let active = Active::new(self.active.take());
+        let active = std::mem::take(&mut self.active);
         let mode = Sys::index(self.region);
         let mut run = Run::<Sys, Taylor, N> {
             cursor: Cursor::new(self.time, self.state, mode, active),
@@ -157,7 +155,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         let ended = ended.and_then(|ended| {
             if let Ended::AtGuard { guard, rate } = ended {
                 run.next_mode(&self.system, guard, rate)?;
-                self.active = Some(guard);
+                self.active = run.cursor.active.clone();
             }
             Ok(ended)
         });

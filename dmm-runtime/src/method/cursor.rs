@@ -31,15 +31,18 @@ impl<const N: usize> Cursor<N> {
         }
     }
 
-    /// Enters another mode, on a guard.
+    /// Enters another mode, on guards.
     #[inline]
-    pub fn enter(&mut self, mode: usize, guard: usize) {
+    pub fn enter(&mut self, mode: usize, active: Active) {
         self.mode = mode;
-        self.active.clear();
-        self.active.first = Some(guard);
+        self.active = active;
         self.level = None;
     }
 }
+
+/// There are several guards.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Several;
 
 /// A set of guards, by their indices. One of them takes no memory but its own.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -55,6 +58,14 @@ impl Active {
         Self {
             first: guard,
             others: Vec::new(),
+        }
+    }
+
+    /// The only guard, or none; an error where there are several.
+    pub fn single(&self) -> Result<Option<usize>, Several> {
+        match &self.others[..] {
+            [] => Ok(self.first),
+            _ => Err(Several),
         }
     }
 
@@ -98,6 +109,8 @@ mod tests {
         }
         assert_eq!(set.iter().collect::<Vec<_>>(), [3, 1000, 0]);
         assert!(set.contains(0) && set.contains(1000) && !set.contains(1));
+        assert_eq!(set.single(), Err(Several));
+        assert_eq!(Active::new(Some(3)).single(), Ok(Some(3)));
         assert_eq!(Active::default().iter().count(), 0);
     }
 }

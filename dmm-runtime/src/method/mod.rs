@@ -13,7 +13,7 @@ mod sink;
 mod statistics;
 pub(crate) mod taylor;
 
-pub(crate) use cursor::{Active, Cursor};
+pub(crate) use cursor::{Active, Cursor, Several};
 pub use failure::StepFailure;
 pub(crate) use failure::{Failure, FailureKind};
 pub(crate) use sink::{Listener, Observed, Silent, Sink};

@@ -51,7 +51,7 @@ fn are_same(known: &Metadata, names: &program::Metadata) -> bool {
                     .sides
                     .iter()
                     .copied()
-                    .eq(names.sides.iter().map(|&sign| side(sign)))
+                    .eq(names.sides.iter().map(|sign| sign.map(side)))
         })
 }
 
@@ -76,7 +76,7 @@ fn region(one: &program::RegionMetadata) -> RegionMetadata {
     RegionMetadata {
         name: text(&one.name),
         conserved: texts(&one.conserved),
-        sides: leaked(one.sides.iter().map(|&sign| side(sign))),
+        sides: leaked(one.sides.iter().map(|sign| sign.map(side))),
         neighbours: leaked(one.neighbours.iter().copied()),
     }
 }

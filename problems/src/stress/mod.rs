@@ -233,7 +233,7 @@ pub fn kind_of(error: &Error) -> &'static str {
         ErrorKind::LeftDomain => "left the domain",
         ErrorKind::Sliding { .. } => "sliding",
         ErrorKind::Tangential { .. } => "tangential",
-        ErrorKind::AmbiguousStart { .. } => "ambiguous start",
+        ErrorKind::Ambiguous { .. } => "ambiguous start",
         ErrorKind::NoRegion => "no region",
         ErrorKind::LocationFailed { .. } => "location failed",
         ErrorKind::Undecided { .. } => "undecided",

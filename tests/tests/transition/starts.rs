@@ -21,7 +21,7 @@ fn a_start_on_the_interface_is_decided_by_the_rates() {
     ));
     assert!(matches!(
         run(1.0, -2.0).unwrap_err().error().kind,
-        ErrorKind::AmbiguousStart { .. }
+        ErrorKind::Ambiguous { .. }
     ));
     assert!(matches!(
         run(0.0, -2.0).unwrap_err().error().kind,

@@ -20,15 +20,4 @@ pws! {
     }
 }
 
-pws! {
-    system SeveralInterfaces {
-        state x, y;
-        interface wall = x;
-        interface floor = y;
-        region right where wall > 0 and floor > 0 { der(x) = 1; der(y) = 1; }
-        region left where wall < 0 and floor > 0 { der(x) = 1; der(y) = 1; }
-        region below where floor < 0 { der(x) = 1; der(y) = 1; }
-    }
-}
-
 fn main() {}

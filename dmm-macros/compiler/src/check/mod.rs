@@ -8,8 +8,8 @@
 //! - elements of groups exist, and groups are used by their elements;
 //! - ẋ = fᵣ(t, x) is complete: in every region r each state has one `der` or is in one canonical
 //!   pair (q, p) of a Hamiltonian, q̇ = ∂H/∂p and ṗ = −∂H/∂q;
-//! - the regions are the sign patterns of the switching functions, each of them once: with one
-//!   interface g = 0 the two regions g > 0 and g < 0, without one the whole space;
+//! - the regions are sign patterns of the switching functions that cover the space, without an
+//!   overlap: with one interface g = 0 the two regions g > 0 and g < 0, without one the whole space;
 //! - no formula divides by zero, leaves the real numbers, or overflows whatever the state is.
 //!
 //! A formula of which an error was reported yields nothing, and nothing that follows from its
@@ -161,13 +161,6 @@ impl<'d> Resolver<'d> {
         let value = self.formula(&interface.formula, Allowed::All);
         if !self.scope.names.is_first(&interface.ident, Kind::Interface) {
             return;
-        }
-        if self.regions.interfaces.len() == 1 {
-            let message = format!(
-                "several interfaces are not supported yet: `{}` is the second of this system",
-                interface.ident
-            );
-            self.report(codes::SEVERAL_INTERFACES, &interface.ident, message);
         }
         let resolved = value.and_then(|value| self.switching(interface, value.id));
         self.regions.interfaces.push(resolved);

@@ -46,9 +46,7 @@ impl<'d> Resolver<'d> {
             .iter()
             .map(|item| (self.sides(item), self.region(item, &shared)))
             .collect();
-        if self.regions.interfaces.len() == 1 {
-            self.both_sides(declaration, &items);
-        }
+        self.patterns(declaration, &items);
         if items.is_empty() {
             return self.everywhere(declaration, shared).into_iter().collect();
         }

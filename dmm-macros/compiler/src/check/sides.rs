@@ -1,6 +1,11 @@
 //! Sign patterns: on which sides of the interfaces a region is, and that each pattern is there
 //! once.
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use proc_macro2::Ident;
+
 use super::Resolver;
 use super::names::Kind;
 use crate::diagnostics::catalogue::check as codes;
@@ -84,60 +89,157 @@ impl Resolver<'_> {
         None
     }
 
-    /// With one interface: the region g > 0 and the region g < 0, each once.
-    pub(super) fn both_sides(&mut self, declaration: &Declaration, items: &[&RegionItem]) {
-        let interface = declaration.items.iter().find_map(|item| match item {
+    /// The sign patterns of the regions cover the space, and no two of them overlap.
+    pub(super) fn patterns(&mut self, declaration: &Declaration, items: &[&RegionItem]) {
+        let interfaces = declaration.items.iter().filter_map(|item| match item {
             Item::Interface(item) => Some(&item.ident),
             _ => None,
         });
-        let Some(interface) = interface else { return };
+        let interfaces: Vec<&Ident> = interfaces.collect();
+        let Some(&first) = interfaces.first() else {
+            return;
+        };
         if items.is_empty() {
             let message = format!(
-                "the interface `{interface}` bounds no region: write `region … where {interface} > 0 {{ … }}` and `region … where {interface} < 0 {{ … }}`, with the `der` items in them"
+                "the interface `{first}` bounds no region: write `region … where {first} > 0 {{ … }}` and `region … where {first} < 0 {{ … }}`, with the `der` items in them"
             );
-            self.report(codes::NO_REGION, interface, message);
+            self.report(codes::NO_REGION, first, message);
             self.regions.lacks_region = true;
             return;
         }
+        let read = items.iter().map(|item| Pattern::new(item, &interfaces));
         // with a wrong pattern it is not known which side was meant
-        let mut is_unclear = items.iter().any(|item| {
-            item.conditions.len() != 1
-                || item
-                    .conditions
-                    .iter()
-                    .any(|condition| condition.interface != *interface)
-        });
+        let Some(patterns) = read.collect::<Option<Vec<Pattern>>>() else {
+            return;
+        };
+        if self.overlap(items, &patterns, &interfaces) {
+            return;
+        }
+        let all: Vec<&Pattern> = patterns.iter().collect();
         let mut missing = Vec::new();
-        for relation in [Relation::Greater, Relation::Less] {
-            let mut on_this_side = items.iter().filter(|item| {
-                item.conditions.iter().any(|condition| {
-                    condition.interface == *interface && condition.relation == relation
-                })
-            });
-            let first = on_this_side.next();
-            if let Some(first) = first {
-                for item in on_this_side {
-                    is_unclear = true;
-                    let message = format!(
-                        "the regions `{}` and `{}` overlap: both are where `{interface} {} 0`",
-                        first.ident,
-                        item.ident,
-                        relation.symbol()
-                    );
-                    self.report(codes::REGIONS_OVERLAP, &item.ident, message);
-                }
-            } else {
-                missing.push(relation.symbol());
-            }
+        uncovered(&all, &mut Pattern::default(), &mut missing);
+        self.regions.lacks_region |= !missing.is_empty();
+        for pattern in missing {
+            let text = pattern.text(&interfaces);
+            let place = pattern
+                .0
+                .first()
+                .and_then(|&(interface, _)| interfaces.get(interface));
+            let message = format!(
+                "there is no region where `{text}`: declare `region name where {text} {{ … }}`"
+            );
+            self.report(codes::REGION_MISSING, *place.unwrap_or(&first), message);
         }
-        if !is_unclear {
-            self.regions.lacks_region |= !missing.is_empty();
-            for symbol in missing {
-                let message = format!(
-                    "there is no region where `{interface} {symbol} 0`: declare `region name where {interface} {symbol} 0 {{ … }}`"
-                );
-                self.report(codes::REGION_MISSING, interface, message);
-            }
+    }
+
+    /// Whether patterns of two regions overlap, which is reported.
+    fn overlap(
+        &mut self,
+        items: &[&RegionItem],
+        patterns: &[Pattern],
+        interfaces: &[&Ident],
+    ) -> bool {
+        let mut overlaps = false;
+        for (later, (item, pattern)) in items.iter().zip(patterns).enumerate() {
+            let earlier = items.iter().zip(patterns).take(later);
+            let mut both = earlier.filter_map(|(one, other)| Some((one, pattern.and(other)?)));
+            let Some((one, both)) = both.next() else {
+                continue;
+            };
+            overlaps = true;
+            let text = both.text(interfaces);
+            let message = format!(
+                "the regions `{}` and `{}` overlap: both are where `{text}`",
+                one.ident, item.ident,
+            );
+            self.report(codes::REGIONS_OVERLAP, &item.ident, message);
         }
+        overlaps
+    }
+}
+
+/// At most so many missing patterns are named.
+const MOST_MISSING: usize = 4;
+
+/// Interfaces, by their numbers in increasing order, and how their functions compare with zero.
+#[derive(Clone, Debug, Default)]
+struct Pattern(Vec<(usize, Relation)>);
+
+impl Pattern {
+    /// That of a region; nothing if something is wrong with it.
+    fn new(item: &RegionItem, interfaces: &[&Ident]) -> Option<Self> {
+        let sides = item.conditions.iter().map(|condition| {
+            let of = |interface: &&Ident| **interface == condition.interface;
+            Some((interfaces.iter().position(of)?, condition.relation))
+        });
+        let mut sides: Vec<(usize, Relation)> = sides.collect::<Option<_>>()?;
+        sides.sort_by_key(|&(interface, _)| interface);
+        let is_twice = sides.windows(2).any(|pair| pair[0].0 == pair[1].0);
+        (!sides.is_empty() && !is_twice).then_some(Self(sides))
+    }
+
+    fn get(&self, interface: usize) -> Option<Relation> {
+        let side = self.0.iter().find(|side| side.0 == interface);
+        side.map(|&(_, relation)| relation)
+    }
+
+    /// The pattern of what lies in both, if there are signs that both have.
+    fn and(&self, other: &Self) -> Option<Self> {
+        let agree = |&(interface, relation): &(usize, Relation)| {
+            other.get(interface).is_none_or(|other| other == relation)
+        };
+        if !self.0.iter().all(agree) {
+            return None;
+        }
+        let more = other.0.iter().filter(|side| self.get(side.0).is_none());
+        let mut both: Vec<(usize, Relation)> = self.0.iter().chain(more).copied().collect();
+        both.sort_by_key(|&(interface, _)| interface);
+        Some(Self(both))
+    }
+
+    /// `wall > 0 and floor < 0`
+    fn text(&self, interfaces: &[&Ident]) -> String {
+        let side = |&(interface, relation): &(usize, Relation)| {
+            let name = interfaces.get(interface).map(ToString::to_string);
+            format!("{} {} 0", name.unwrap_or_default(), relation.symbol())
+        };
+        let sides: Vec<String> = self.0.iter().map(side).collect();
+        sides.join(" and ")
+    }
+}
+
+/// The patterns within `at` that none of `patterns`, which all have signs in common with it,
+/// covers: an interface is looked at only where one of them is bounded by it.
+fn uncovered(patterns: &[&Pattern], at: &mut Pattern, missing: &mut Vec<Pattern>) {
+    if missing.len() >= MOST_MISSING {
+        return;
+    }
+    if patterns.is_empty() {
+        let mut found = at.clone();
+        found.0.sort_by_key(|&(interface, _)| interface);
+        missing.push(found);
+        return;
+    }
+    // by interface, how many patterns lie on either side of it
+    let mut open: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
+    for &(interface, relation) in patterns.iter().flat_map(|pattern| &pattern.0) {
+        if at.get(interface).is_none() {
+            open.entry(interface).or_default()[usize::from(relation == Relation::Less)] += 1;
+        }
+    }
+    // most patterns on one side leave most of what is missing together on the other one
+    let most = |(interface, [greater, less]): (&usize, &[usize; 2])| {
+        (greater + less, greater.abs_diff(*less), Reverse(*interface))
+    };
+    // without an interface, the first pattern covers all of it
+    let Some((_, _, Reverse(interface))) = open.iter().map(most).max() else {
+        return;
+    };
+    for relation in [Relation::Greater, Relation::Less] {
+        let has = |pattern: &&&Pattern| pattern.get(interface).is_none_or(|own| own == relation);
+        let within: Vec<&Pattern> = patterns.iter().filter(has).copied().collect();
+        at.0.push((interface, relation));
+        uncovered(&within, at, missing);
+        at.0.pop();
     }
 }

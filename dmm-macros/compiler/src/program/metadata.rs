@@ -40,9 +40,10 @@ pub struct RegionMetadata {
     pub name: String,
     /// The names of the quantities that are conserved in it.
     pub conserved: Vec<String>,
-    /// The sign of g of each interface.
-    pub sides: Vec<Sign>,
-    /// The index of the region on the other side of each interface, if there is one.
+    /// The sign of g of each interface that bounds it.
+    pub sides: Vec<Option<Sign>>,
+    /// The index of the region on the other side of each interface that bounds it, where it is the
+    /// only one.
     pub neighbours: Vec<Option<usize>>,
 }
 
@@ -76,13 +77,15 @@ impl Metadata {
 
 impl RegionMetadata {
     fn new(model: &Model, region: &Region) -> Self {
-        let own = signs(region);
+        let sides = |region| signs(region, model.interfaces.len());
+        let own = sides(region);
         let neighbour = |interface: usize| {
-            model.regions.iter().position(|other| {
-                let signs = signs(other);
-                let mut pairs = own.iter().zip(&signs).enumerate();
-                pairs.all(|(index, (a, b))| (a == b) == (index != interface))
-            })
+            let mut across = own.clone();
+            *across.get_mut(interface)? = Some(own.get(interface)?.as_ref()?.opposite());
+            let others = model.regions.iter().enumerate();
+            let mut others = others.filter(|(_, other)| overlap(&across, &sides(other)));
+            let (only, _) = others.next()?;
+            others.next().is_none().then_some(only)
         };
         Self {
             name: plain_text(&region.ident),
@@ -96,8 +99,16 @@ impl RegionMetadata {
 }
 
 /// The signs of a region, in the order of the interfaces.
-fn signs(region: &Region) -> Vec<Sign> {
-    let mut sides = region.sides.clone();
-    sides.sort_by_key(|side| side.interface);
-    sides.into_iter().map(|side| side.sign).collect()
+fn signs(region: &Region, interfaces: usize) -> Vec<Option<Sign>> {
+    let of = |interface| {
+        let side = region.sides.iter().find(|side| side.interface == interface);
+        side.map(|side| side.sign)
+    };
+    (0..interfaces).map(of).collect()
+}
+
+/// Whether there are points with both patterns of signs.
+fn overlap(one: &[Option<Sign>], other: &[Option<Sign>]) -> bool {
+    let mut pairs = one.iter().zip(other);
+    pairs.all(|(one, other)| one.is_none() || other.is_none() || one == other)
 }

@@ -119,12 +119,75 @@ fn regions_need_an_interface_that_can_be_crossed() {
          region a where wall > 0 { der(x) = 1; } region b where wall < 0 { der(x) = 1; }",
         "depends neither on a state nor on `t`",
     );
-    one(
-        "state x, y; interface left = x; interface low = y;
-         region a where left > 0 and low > 0 { der(x) = 1; der(y) = 1; }
-         region b where left < 0 and low > 0 { der(x) = 1; der(y) = 1; }",
-        "several interfaces are not supported yet: `low` is the second",
-    );
+}
+
+/// A system with the interfaces p, q and r and regions of these patterns.
+fn with_patterns(patterns: &[&str]) -> Vec<String> {
+    let region = |(number, pattern): (usize, &&str)| {
+        format!("region a{number} where {pattern} {{ der(x) = 1; der(y) = 1; der(z) = 1; }}")
+    };
+    let regions: Vec<String> = patterns.iter().enumerate().map(region).collect();
+    let interfaces = "state x, y, z; interface p = x; interface q = y; interface r = z;";
+    messages(&format!("{interfaces} {}", regions.join(" ")))
+}
+
+#[test]
+fn patterns_of_several_interfaces_cover_the_space_without_an_overlap() {
+    for patterns in [
+        &["p > 0", "p < 0"][..],
+        &["p > 0 and q > 0", "p > 0 and q < 0", "p < 0"],
+        &[
+            "r < 0",
+            "r > 0 and p > 0, q < 0",
+            "r > 0 && p < 0",
+            "p > 0 and q > 0 and r > 0",
+        ],
+        // none of them is on one side of another
+        &[
+            "p > 0, q < 0",
+            "q > 0, r < 0",
+            "r > 0, p < 0",
+            "p > 0, q > 0, r > 0",
+            "p < 0, q < 0, r < 0",
+        ],
+    ] {
+        assert_eq!(
+            with_patterns(patterns),
+            Vec::<String>::new(),
+            "{patterns:?}"
+        );
+    }
+    for (patterns, message) in [
+        (
+            &["p > 0 and q > 0", "p < 0 and q > 0"][..],
+            "there is no region where `q < 0`",
+        ),
+        (
+            &["p > 0", "p < 0 and r > 0"],
+            "there is no region where `p < 0 and r < 0`",
+        ),
+        (
+            &["p > 0", "q < 0", "p < 0 and q > 0"],
+            "`a0` and `a1` overlap: both are where `p > 0 and q < 0`",
+        ),
+        (
+            &[
+                "p > 0, q < 0",
+                "q > 0, r < 0",
+                "r > 0, p < 0",
+                "p > 0, q > 0, r > 0",
+            ],
+            "there is no region where `p < 0 and q < 0 and r < 0`",
+        ),
+    ] {
+        let found = with_patterns(patterns);
+        assert!(
+            found.len() == 1 && found[0].contains(message),
+            "{patterns:?}: {found:#?}"
+        );
+    }
+    let missing = with_patterns(&["p > 0 and q > 0 and r > 0"]);
+    assert_eq!(missing.len(), 3, "{missing:#?}");
 }
 
 #[test]

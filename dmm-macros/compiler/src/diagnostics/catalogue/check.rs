@@ -120,9 +120,6 @@ super::codes! {
     INTERFACE_CONSTANT = 260, "an interface cannot be crossed",
         "Its switching function depends neither on a state nor on the time.",
         "Correct the switching function, or remove the interface.";
-    SEVERAL_INTERFACES = 261, "a system has several interfaces",
-        "Only one interface a system is supported so far.",
-        "Declare one interface and two regions.";
     NO_REGION = 262, "an interface bounds no region",
         "An interface separates two regions, each with its own field.",
         "Write a region on each side of it.";
@@ -143,8 +140,8 @@ super::codes! {
         "Rename one of them.";
     REGIONS_OVERLAP = 268, "two regions overlap",
         "Each point belongs to one region.",
-        "Change the condition of one of them, or remove it.";
+        "Change the conditions of one of them, or add one.";
     REGION_MISSING = 269, "a region is missing",
         "Together, the regions cover the whole space.",
-        "Declare the region on the other side of the interface.";
+        "Declare the region with the signs that the message names, or leave a condition out of another one.";
 }

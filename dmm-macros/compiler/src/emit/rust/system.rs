@@ -137,6 +137,7 @@ fn across(emission: &Emission<'_>) -> Option<TokenStream> {
     let (mut sides, mut neighbours) = (TokenStream::new(), TokenStream::new());
     for (one, from) in regions.iter().zip(variants) {
         for (interface, (&own, &other)) in one.sides.iter().zip(&one.neighbours).enumerate() {
+            let Some(own) = own else { continue };
             let (interface, sign) = (paths::count(interface), sign(own));
             sides.extend(quote!((#region::#from, #interface) => #side::#sign,));
             if let Some(to) = other.and_then(|other| variants.get(other)) {
@@ -184,9 +185,9 @@ fn metadata(metadata: &Metadata) -> TokenStream {
     });
     let regions = regions.iter().map(|one| {
         let (name, conserved) = (&one.name, &one.conserved);
-        let sides = one.sides.iter().map(|&one| {
-            let sign = sign(one);
-            quote!(#side::#sign)
+        let sides = one.sides.iter().map(|one| match one.map(sign) {
+            Some(sign) => quote!(::core::option::Option::Some(#side::#sign)),
+            None => quote!(::core::option::Option::None),
         });
         let neighbours = one.neighbours.iter().map(|one| match one {
             Some(index) => {

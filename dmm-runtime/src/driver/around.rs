@@ -1,0 +1,160 @@
+//! What lies around a point of interfaces: the regions that meet there, and the one whose own field
+//! leads into it.
+//!
+//! Away from the interfaces the signs of the switching functions tell the region. On some of them
+//! every choice of sides is a region that meets the point, and the solution goes on in the one whose
+//! field enters it at each of these interfaces: dg/dt > 0 where it lies on the side g > 0, dg/dt < 0
+//! where it lies on the side g < 0. None is sliding or rest, several are several solutions. Nothing
+//! depends on the order in which interfaces and regions are declared.
+
+use super::next::BothSides;
+use super::reading::Reading;
+use crate::contract::{Side, System, Vector};
+use crate::error::{Error, ErrorKind};
+use crate::method::Active;
+
+/// A point that lies on so many interfaces at most: all choices of their sides are looked at.
+const MOST: usize = 12;
+
+/// A point with the signs of the switching functions.
+pub(super) struct Around<'a, Sys: System<N>, const N: usize> {
+    system: &'a Sys,
+    t: f64,
+    x: &'a Vector<f64, N>,
+    /// The sides of all interfaces; of no meaning for those that the point is on.
+    sides: Vec<Side>,
+    /// The interfaces that the point is on.
+    on: Vec<usize>,
+}
+
+impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
+    /// The point (t, x), with an interface that it is known to be on.
+    pub(super) fn new(
+        system: &'a Sys,
+        met: Option<usize>,
+        t: f64,
+        x: &'a Vector<f64, N>,
+    ) -> Result<Self, Error> {
+        let no_region = || ErrorKind::NoRegion.at(t, x.as_slice(), "");
+        let any = system.region(0).ok_or_else(no_region)?;
+        let interfaces = 0..system.metadata().interfaces.len();
+        let mut on = Vec::new();
+        let mut sides = Vec::with_capacity(interfaces.len());
+        for interface in interfaces {
+            let reading = Reading::new(system, any, interface, t, x);
+            if reading.value.is_nan() {
+                return Err(no_region());
+            }
+            if met == Some(interface) || reading.is_zero() {
+                on.push(interface);
+            }
+            sides.push(if reading.value > 0.0 {
+                Side::Positive
+            } else {
+                Side::Negative
+            });
+        }
+        Ok(Self {
+            system,
+            t,
+            x,
+            sides,
+            on,
+        })
+    }
+
+    /// The region that the solution goes on in, and the interfaces that bound it at the point.
+    ///
+    /// # Errors
+    /// None, or several.
+    pub(super) fn entered(&self) -> Result<(Sys::Region, Active), Error> {
+        let regions = self.regions();
+        let enters = |region: &Sys::Region| self.enters(*region);
+        let entered: Vec<Sys::Region> = regions.iter().copied().filter(enters).collect();
+        match (&entered[..], &regions[..]) {
+            (&[region], _) => Ok((region, self.active(region))),
+            ([], []) => Err(self.error(ErrorKind::NoRegion)),
+            ([], &[region, ..]) => Err(self.none(region)),
+            (several, _) => Err(self.several(several)),
+        }
+    }
+
+    /// The interfaces of the point that bound a region.
+    fn active(&self, region: Sys::Region) -> Active {
+        let bounds = |&&interface: &&usize| self.system.side(region, interface).is_some();
+        let mut active = Active::default();
+        let on = self.on.iter().filter(bounds);
+        on.for_each(|&interface| active.insert(interface));
+        active
+    }
+
+    /// The regions that meet the point.
+    fn regions(&self) -> Vec<Sys::Region> {
+        if self.on.len() > MOST {
+            return Vec::new();
+        }
+        let mut sides = self.sides.clone();
+        let mut regions = Vec::new();
+        for choice in 0..1_usize << self.on.len() {
+            for (place, &interface) in self.on.iter().enumerate() {
+                sides[interface] = match choice >> place & 1 {
+                    0 => Side::Positive,
+                    _ => Side::Negative,
+                };
+            }
+            let region = self.system.region_on(&sides);
+            regions.extend(region.filter(|region| !regions.contains(region)));
+        }
+        regions
+    }
+
+    /// Whether the field of a region leads into it.
+    fn enters(&self, region: Sys::Region) -> bool {
+        self.on.iter().all(|&interface| {
+            let side = self.system.side(region, interface);
+            side.is_none_or(|side| self.rate(region, interface) * side.sign() > 0.0)
+        })
+    }
+
+    fn rate(&self, region: Sys::Region, interface: usize) -> f64 {
+        Reading::new(self.system, region, interface, self.t, self.x).rate
+    }
+
+    /// No field leads into its region; `region` is one of those that meet the point.
+    #[cold]
+    fn none(&self, region: Sys::Region) -> Error {
+        let bounds = |&&interface: &&usize| self.system.side(region, interface).is_some();
+        let mut on = self.on.iter().filter(bounds);
+        if let (Some(&interface), None) = (on.next(), on.next())
+            && let left = (region, self.rate(region, interface))
+            && let Ok(both) = BothSides::new(self.system, left, interface, self.t, self.x)
+        {
+            return both.stays();
+        }
+        self.error(ErrorKind::Intersection {
+            interfaces: self.interfaces(),
+        })
+    }
+
+    /// The fields of several regions lead into them.
+    #[cold]
+    fn several(&self, regions: &[Sys::Region]) -> Error {
+        let names = regions.iter();
+        let names = names.map(|&region| format!("`{}`", self.system.of_region(region).name));
+        self.error(ErrorKind::Ambiguous {
+            interfaces: self.interfaces(),
+            regions: names.collect::<Vec<String>>().join(", "),
+        })
+    }
+
+    /// The interfaces that the point is on, by their names.
+    fn interfaces(&self) -> String {
+        let names = self.on.iter();
+        let names = names.map(|&one| format!("`{}`", self.system.metadata().guard_name(one)));
+        names.collect::<Vec<String>>().join(", ")
+    }
+
+    fn error(&self, kind: ErrorKind) -> Error {
+        kind.at(self.t, self.x.as_slice(), "")
+    }
+}
