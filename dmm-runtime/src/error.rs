@@ -151,6 +151,12 @@ pub enum ErrorKind {
         /// The interfaces.
         interfaces: String,
     },
+    /// Events that happen at once give a state different values.
+    #[error("events that happen at once give `{state}` different values")]
+    Conflict {
+        /// The state or discrete state.
+        state: &'static str,
+    },
     /// No region has the signs of the switching functions there.
     #[error("the point lies in no region")]
     NoRegion,

@@ -2,7 +2,7 @@
 
 pub use crate::arithmetic::{Matrix, MinimalNorm, Scalar, Vector, sparse};
 pub use crate::contract::{
-    Condition, Dynamics, DynamicsVisitor, Guards, LOW_DEGREE, Metadata, NoGuards, RegionMetadata,
-    Side, Solvability, System,
+    Condition, Dynamics, DynamicsVisitor, Event, Guards, LOW_DEGREE, Metadata, Mode, NoGuards,
+    RegionMetadata, Side, Solvability, System, sides,
 };
 pub use crate::series;

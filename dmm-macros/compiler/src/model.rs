@@ -27,6 +27,10 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// The interfaces g = 0.
     pub interfaces: Vec<Interface>,
+    /// The discrete states: constant between events, changed by them.
+    pub discrete: Vec<Discrete>,
+    /// What happens in an instant.
+    pub events: Vec<Event>,
     /// The regions; exactly one, without sides, if there is no interface.
     pub regions: Vec<Region>,
     /// The declaration as text, formatted for people.
@@ -60,6 +64,62 @@ pub struct Parameter {
     pub name: Name,
     /// The default: an expression without variables.
     pub default: Id,
+}
+
+/// A discrete state.
+#[derive(Debug)]
+pub struct Discrete {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// Its identifier in the declaration.
+    pub ident: Ident,
+    /// Its variable.
+    pub name: Name,
+    /// The initial value: an expression without variables.
+    pub initial: Id,
+    /// Whether it counts the events of an `every`: it starts as the number of the first one behind
+    /// the initial time.
+    pub is_clock: bool,
+}
+
+/// An event: x and the discrete states change where a switching function changes its sign.
+#[derive(Debug)]
+pub struct Event {
+    /// Index in [`Model::interfaces`].
+    pub interface: usize,
+    /// Whether it happens where g changes from − to +.
+    pub rises: bool,
+    /// Whether it happens where g changes from + to −.
+    pub falls: bool,
+    /// The region that it happens in; nothing where it happens in all of them.
+    pub region: Option<Ident>,
+    /// What has to be positive for it to happen.
+    pub conditions: Vec<Id>,
+    /// The new values of states, from the values before.
+    pub states: Vec<(usize, Id)>,
+    /// The new values of discrete states.
+    pub discrete: Vec<(usize, Id)>,
+    /// The names of quantities that do not change.
+    pub conserved: Vec<Ident>,
+    /// Where it stands in the declaration.
+    pub span: Extent,
+}
+
+impl Event {
+    /// Nothing happens where g changes its sign either way.
+    pub(crate) fn new(interface: usize) -> Self {
+        Self {
+            interface,
+            rises: true,
+            falls: true,
+            region: None,
+            conditions: Vec::new(),
+            states: Vec::new(),
+            discrete: Vec::new(),
+            conserved: Vec::new(),
+            span: Extent::from(proc_macro2::Span::call_site()),
+        }
+    }
 }
 
 /// An interface: the zero set of a switching function g(t, x).
@@ -176,6 +236,24 @@ impl Model {
     /// The variables of the states, in the order of declaration.
     pub fn state_names(&self) -> Vec<Name> {
         self.states.iter().map(|state| state.name.clone()).collect()
+    }
+
+    /// The interfaces whose side is part of a mode whether they bound its region or not: those with
+    /// events.
+    pub fn free_interfaces(&self) -> Vec<usize> {
+        let has_event = |&index: &usize| self.events.iter().any(|event| event.interface == index);
+        (0..self.interfaces.len()).filter(has_event).collect()
+    }
+
+    /// The variables that are constant in a mode, besides the parameters: the discrete states, then
+    /// a number for each of the [free interfaces](Self::free_interfaces), 1 where g > 0 and 0 where
+    /// g < 0.
+    pub fn constants(&self) -> Vec<Name> {
+        let discrete = self.discrete.iter().map(|one| one.name.clone());
+        let free = self.free_interfaces().into_iter();
+        // no identifier of a declaration has a space
+        let sides = free.map(|index| Name::new(&format!("side {index}")));
+        discrete.chain(sides).collect()
     }
 
     /// The variables of the states, then those of the parameters.

@@ -13,6 +13,16 @@ pub enum Side {
 }
 
 impl Side {
+    /// That on which g has a value.
+    #[inline]
+    pub fn of(g: f64) -> Self {
+        if g > 0.0 {
+            Self::Positive
+        } else {
+            Self::Negative
+        }
+    }
+
     /// −1 or 1.
     pub fn sign(self) -> f64 {
         match self {
@@ -20,6 +30,12 @@ impl Side {
             Self::Positive => 1.0,
         }
     }
+}
+
+/// As many guards with their sides as there are.
+#[doc(hidden)]
+pub fn sides<const COUNT: usize>(sides: &[(usize, Side)]) -> [(usize, Side); COUNT] {
+    std::array::from_fn(|index| sides.get(index).copied().unwrap_or((0, Side::Positive)))
 }
 
 /// The Taylor coefficients of a polynomial of at most this degree fall off like those of the state.

@@ -9,12 +9,14 @@ mod condition;
 mod dynamics;
 mod guards;
 mod metadata;
+mod mode;
 mod system;
 
 pub use condition::Condition;
 pub use dynamics::{Dynamics, DynamicsVisitor, Solvability};
-pub use guards::{Guards, LOW_DEGREE, NoGuards, Side};
-pub use metadata::{Metadata, RegionMetadata};
+pub use guards::{Guards, LOW_DEGREE, NoGuards, Side, sides};
+pub use metadata::{Event, Metadata, RegionMetadata};
+pub use mode::Mode;
 pub use system::System;
 
 pub(crate) use crate::arithmetic::{Matrix, Vector};

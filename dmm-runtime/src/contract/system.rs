@@ -10,8 +10,9 @@ use crate::arithmetic::{Scalar, Vector};
 ///
 /// Implemented by `pws!`.
 pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
-    /// The regions; an enumeration emitted beside the system.
-    type Region: Copy + Eq + Debug + Send + Sync + 'static;
+    /// The regions; an enumeration emitted beside the system. Of a system with events it is a
+    /// [`Mode`](crate::Mode), a region with what is constant between events.
+    type Region: Copy + PartialEq + Debug + Send + Sync + 'static;
 
     /// Names and signs: what is known of the system besides its functions.
     fn metadata(&self) -> &'static Metadata;
@@ -22,7 +23,7 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// The derived scheme in readable mathematics.
     fn listing(&self) -> &str;
 
-    /// The region with an index in [`Metadata::regions`].
+    /// The region with an index in [`Metadata::regions`]; discrete states have their initial values.
     fn region(&self, index: usize) -> Option<Self::Region>;
 
     /// The index of a region in [`Metadata::regions`].
@@ -60,13 +61,33 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
         regions.get(Self::index(region)).unwrap_or(UNKNOWN)
     }
 
-    /// The region on these sides of the interfaces, in the order of [`Metadata::interfaces`].
-    fn region_on(&self, sides: &[Side]) -> Option<Self::Region> {
-        self.regions().find(|&region| {
-            let own = self.of_region(region).sides;
-            let mut pairs = own.iter().zip(sides);
-            pairs.all(|(own, side)| own.is_none_or(|own| own == *side))
-        })
+    /// The region on these sides of the interfaces, in the order of [`Metadata::interfaces`]. Where
+    /// there are discrete states, they are those of `like`, or the initial ones.
+    fn region_on(&self, sides: &[Side], _like: Option<Self::Region>) -> Option<Self::Region> {
+        self.region(self.metadata().region_on(sides)?)
+    }
+
+    /// What is constant in a mode: the values of the discrete states, then 1 for each interface of
+    /// [`Metadata::free`] where g > 0, and 0 where g < 0.
+    fn constants(_region: Self::Region) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// A mode with another value of the discrete state at an index.
+    fn with_constant(region: Self::Region, _index: usize, _value: f64) -> Self::Region {
+        region
+    }
+
+    /// The state and the mode after event number `event` of [`Metadata::events`]; nothing where a
+    /// condition of it does not hold.
+    fn jump(
+        &self,
+        _region: Self::Region,
+        _event: usize,
+        _t: f64,
+        _state: &Vector<f64, N>,
+    ) -> Option<(Vector<f64, N>, Self::Region)> {
+        None
     }
 
     /// On which side of an interface a region lies, if the interface bounds it.

@@ -6,6 +6,8 @@ use crate::error::{Error, ErrorKind};
 
 /// Transitions that are seen together.
 const TOGETHER: u64 = 1000;
+/// So many of the last ones explain why the next one cannot be found.
+const LAST: usize = 16;
 
 /// Whether transitions accumulate: so many within so short a time that doubles do not tell it from
 /// none, as a part of the time since the start of the run.
@@ -15,6 +17,8 @@ pub(crate) struct Accumulation {
     /// The time of the first of those that are seen together.
     first: Time,
     count: u64,
+    /// The times of the last ones.
+    last: [Time; LAST],
 }
 
 impl Accumulation {
@@ -24,7 +28,27 @@ impl Accumulation {
             start,
             first: start,
             count: 0,
+            last: [start; LAST],
         }
+    }
+
+    /// What a failure to find the next transition is instead, if the last ones accumulate: they
+    /// followed one another faster than the time can tell.
+    #[cold]
+    pub(crate) fn explains(&self, time: Time, kind: &ErrorKind) -> Option<ErrorKind> {
+        let (ErrorKind::LocationFailed { interface } | ErrorKind::Undecided { interface }) = *kind
+        else {
+            return None;
+        };
+        let oldest = self.last[self.count as usize % LAST];
+        let within = time.since(oldest);
+        let accumulate =
+            self.count >= LAST as u64 && within <= f64::EPSILON * time.since(self.start);
+        accumulate.then_some(ErrorKind::Zeno {
+            interface,
+            transitions: LAST as u64,
+            within,
+        })
     }
 
     /// Counts a transition.
@@ -35,6 +59,7 @@ impl Accumulation {
         time: Time,
         x: &Vector<f64, N>,
     ) -> Result<(), Error> {
+        self.last[self.count as usize % LAST] = time;
         self.count += 1;
         if !self.count.is_multiple_of(TOGETHER) {
             return Ok(());

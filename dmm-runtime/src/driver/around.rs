@@ -7,7 +7,7 @@
 //! where it lies on the side g < 0. None is sliding or rest, several are several solutions. Nothing
 //! depends on the order in which interfaces and regions are declared.
 
-use super::next::BothSides;
+use super::next::stays;
 use super::reading::Reading;
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
@@ -21,6 +21,8 @@ pub(super) struct Around<'a, Sys: System<N>, const N: usize> {
     system: &'a Sys,
     t: f64,
     x: &'a Vector<f64, N>,
+    /// A mode with the discrete states of the point.
+    like: Sys::Region,
     /// The sides of all interfaces; of no meaning for those that the point is on.
     sides: Vec<Side>,
     /// The interfaces that the point is on.
@@ -28,39 +30,41 @@ pub(super) struct Around<'a, Sys: System<N>, const N: usize> {
 }
 
 impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
-    /// The point (t, x), with an interface that it is known to be on.
+    /// The point (t, x), where the discrete states are those of `like`; it is on an interface where
+    /// g is no more than its rounding errors, or `is_on` knows it of its value there.
     pub(super) fn new(
         system: &'a Sys,
-        met: Option<usize>,
+        like: Sys::Region,
         t: f64,
         x: &'a Vector<f64, N>,
+        is_on: impl Fn(usize, f64) -> bool,
     ) -> Result<Self, Error> {
-        let no_region = || ErrorKind::NoRegion.at(t, x.as_slice(), "");
-        let any = system.region(0).ok_or_else(no_region)?;
         let interfaces = 0..system.metadata().interfaces.len();
         let mut on = Vec::new();
         let mut sides = Vec::with_capacity(interfaces.len());
         for interface in interfaces {
-            let reading = Reading::new(system, any, interface, t, x);
+            let reading = Reading::new(system, like, interface, t, x);
             if reading.value.is_nan() {
-                return Err(no_region());
+                return Err(ErrorKind::NoRegion.at(t, x.as_slice(), ""));
             }
-            if met == Some(interface) || reading.is_zero() {
+            if reading.is_zero() || is_on(interface, reading.value) {
                 on.push(interface);
             }
-            sides.push(if reading.value > 0.0 {
-                Side::Positive
-            } else {
-                Side::Negative
-            });
+            sides.push(Side::of(reading.value));
         }
         Ok(Self {
             system,
             t,
             x,
+            like,
             sides,
             on,
         })
+    }
+
+    /// The interfaces that the point is on.
+    pub(super) fn on(&self) -> &[usize] {
+        &self.on
     }
 
     /// The region that the solution goes on in, and the interfaces that bound it at the point.
@@ -74,7 +78,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         match (&entered[..], &regions[..]) {
             (&[region], _) => Ok((region, self.active(region))),
             ([], []) => Err(self.error(ErrorKind::NoRegion)),
-            ([], &[region, ..]) => Err(self.none(region)),
+            ([], regions) => Err(self.none(regions)),
             (several, _) => Err(self.several(several)),
         }
     }
@@ -102,7 +106,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
                     _ => Side::Negative,
                 };
             }
-            let region = self.system.region_on(&sides);
+            let region = self.system.region_on(&sides, Some(self.like));
             regions.extend(region.filter(|region| !regions.contains(region)));
         }
         regions
@@ -120,20 +124,18 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         Reading::new(self.system, region, interface, self.t, self.x).rate
     }
 
-    /// No field leads into its region; `region` is one of those that meet the point.
+    /// No field leads into its region.
     #[cold]
-    fn none(&self, region: Sys::Region) -> Error {
-        let bounds = |&&interface: &&usize| self.system.side(region, interface).is_some();
-        let mut on = self.on.iter().filter(bounds);
-        if let (Some(&interface), None) = (on.next(), on.next())
-            && let left = (region, self.rate(region, interface))
-            && let Ok(both) = BothSides::new(self.system, left, interface, self.t, self.x)
-        {
-            return both.stays();
-        }
-        self.error(ErrorKind::Intersection {
-            interfaces: self.interfaces(),
-        })
+    fn none(&self, regions: &[Sys::Region]) -> Error {
+        let [from, to] = regions else {
+            return self.error(ErrorKind::Intersection {
+                interfaces: self.interfaces(),
+            });
+        };
+        let differs = |&&one: &&usize| self.system.side(*from, one) != self.system.side(*to, one);
+        let interface = self.on.iter().find(differs).copied().unwrap_or_default();
+        let [from, to] = [*from, *to].map(|region| (region, self.rate(region, interface)));
+        stays(self.system, (from, to), interface, self.t, self.x)
     }
 
     /// The fields of several regions lead into them.

@@ -132,7 +132,7 @@ where
         let start = self.start(t_end).map_err(Halted::at_start)?;
         let Integrator { system, method } = &self.integrator;
         let system = *system;
-        let mut run = Run::<Sys, Met, N>::new(method, (self.t0, self.x0), start, t_end);
+        let mut run = Run::<Sys, Met, N>::new((system, method), (self.t0, self.x0), start, t_end);
         while let Some(t) = observer.next_output()
             && t <= self.t0
         {
@@ -155,7 +155,7 @@ where
         let system = self.integrator.system;
         let start = match self.region {
             Some(region) => check_region(system, region, self.t0, &self.x0),
-            None => find_region(system, self.t0, &self.x0),
+            None => find_region(system, None, self.t0, &self.x0),
         }?;
         check_conditions(system, start.region, self.t0, &self.x0)?;
         Ok(start)

@@ -6,7 +6,9 @@
 mod accumulation;
 mod around;
 mod conditions;
+mod events;
 mod integrator;
+mod modes;
 mod next;
 mod reading;
 mod recording;

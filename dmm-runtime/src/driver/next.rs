@@ -1,48 +1,109 @@
-//! The next mode: decided at a point of an interface by the rates dg/dt of the fields around it.
+//! The next mode: decided at a point of an interface by the rates dg/dt of the fields around it,
+//! behind the events that happen there.
 
 use super::around::Around;
 use super::conditions::check_conditions;
+use super::events::{Happened, happens};
 use super::reading::Reading;
 use crate::arithmetic::{State, Time};
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
 use crate::method::Active;
-use crate::output::Transition;
+use crate::output::{Transition, TransitionKind};
 
-/// The transition at a point of an interface, from a region that is left at a rate, into the region
-/// whose field leads into it; and the interfaces that bound it there.
+/// What is behind a point of an interface.
+pub(crate) struct Next<R, const N: usize> {
+    /// The transition into the next mode; nothing where an interface was crossed that has to do
+    /// with events alone and none happened.
+    pub(crate) transition: Option<Transition<R, N>>,
+    /// The mode.
+    pub(crate) mode: R,
+    /// The state, if it has changed.
+    pub(crate) state: Option<State<N>>,
+    /// The interfaces that bound the mode there.
+    pub(crate) active: Active,
+}
+
+/// What is behind a point of an interface, from a mode that is left at a rate: the mode whose field
+/// leads into it.
 pub(crate) fn enter<Sys: System<N>, const N: usize>(
     system: &Sys,
     (from, rate_from): (Sys::Region, f64),
     interface: usize,
     time: Time,
     state: &State<N>,
-) -> Result<(Transition<Sys::Region, N>, Active), Error> {
+) -> Result<Next<Sys::Region, N>, Error> {
     let (t, x) = (time.value, &state.x);
-    let (to, active) = if let [_] = system.metadata().interfaces {
+    let metadata = system.metadata();
+    let ((to, rate_to), active, happened) = if let ([_], []) = (metadata.interfaces, metadata.free)
+    {
         let to = across(system, (from, rate_from), interface, t, x)?;
-        (to, Active::new(Some(interface)))
+        (to, Active::new(Some(interface)), None)
     } else {
-        let around = Around::new(system, Some(interface), t, x)?;
-        let entered = around.entered();
-        let (to, active) = entered.map_err(|error| error.in_region(system.of_region(from).name))?;
-        let rate = Reading::new(system, to, interface, t, x).rate;
-        ((to, rate), active)
+        let (to, active, happened) = around(system, (from, rate_from), interface, t, state)?;
+        let after = happened.as_ref().map_or(x, |happened| &happened.state.x);
+        let rate = Reading::new(system, to, interface, t, after).rate;
+        ((to, rate), active, happened)
     };
-    let (to, rate_to) = to;
-    check_conditions(system, to, t, x)?;
+    let after = happened.as_ref().map_or(*x, |happened| happened.state.x);
+    check_conditions(system, to, t, &after)?;
+    let is_silent = happened.is_none()
+        && Sys::index(from) == Sys::index(to)
+        && metadata.free.contains(&interface);
     let transition = Transition {
         t,
         time,
         x: state.x,
         remainder: state.remainder,
+        after,
+        kind: match happened {
+            Some(_) => TransitionKind::Jumped,
+            None => TransitionKind::Crossed,
+        },
         interface,
         from,
         to,
         rate_from,
         rate_to,
     };
-    Ok((transition, active))
+    Ok(Next {
+        transition: (!is_silent).then_some(transition),
+        mode: to,
+        state: happened.map(|happened| happened.state),
+        active,
+    })
+}
+
+/// The mode that the solution goes on in where several interfaces may be met or events happen, and
+/// the interfaces that bound it.
+#[inline(never)]
+fn around<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    (from, rate_from): (Sys::Region, f64),
+    interface: usize,
+    t: f64,
+    state: &State<N>,
+) -> Result<(Sys::Region, Active, Option<Happened<Sys::Region, N>>), Error> {
+    let x = &state.x;
+    let in_region = |error: Error| error.in_region(system.of_region(from).name);
+    // what is on the wrong side of an interface by rounding is on it
+    let is_on = |one: usize, value: f64| {
+        let side = system.side(from, one);
+        one == interface || side.is_some_and(|side| side != Side::of(value))
+    };
+    let before = Around::new(system, from, t, x, is_on).map_err(in_region)?;
+    let met = (interface, rate_from);
+    let Some(happened) = happens(system, from, met, before.on(), t, state)? else {
+        let (to, active) = before.entered().map_err(in_region)?;
+        return Ok((to, active, None));
+    };
+    let is_on = |one: usize, value: f64| {
+        let was_on = before.on().contains(&one);
+        was_on && value.abs() <= Reading::new(system, from, one, t, x).value.abs()
+    };
+    let after = Around::new(system, happened.mode, t, &happened.state.x, is_on);
+    let (to, active) = after.and_then(|after| after.entered()).map_err(in_region)?;
+    Ok((to, active, Some(happened)))
 }
 
 /// The region on the other side of the only interface, if its field leads into it, and dg/dt there.
@@ -55,7 +116,8 @@ fn across<Sys: System<N>, const N: usize>(
     x: &Vector<f64, N>,
 ) -> Result<(Sys::Region, f64), Error> {
     let Some(to) = system.neighbour(from, interface) else {
-        return Err(no_region(system, from, t, x));
+        let region = system.of_region(from).name;
+        return Err(ErrorKind::NoRegion.at(t, x.as_slice(), region));
     };
     let rate_to = Reading::new(system, to, interface, t, x).rate;
     let inwards = system.side(to, interface).map_or(0.0, Side::sign);
@@ -63,85 +125,43 @@ fn across<Sys: System<N>, const N: usize>(
     if enters {
         return Ok((to, rate_to));
     }
-    Err(BothSides::new(system, (from, rate_from), interface, t, x)?.stays())
+    let both = ((from, rate_from), (to, rate_to));
+    Err(stays(system, both, interface, t, x))
 }
 
-/// There is no region on the other side.
+/// A mode with dg/dt under its field.
+type Rated<R> = (R, f64);
+
+/// The error of a solution that the field of neither side leads away from an interface: both point
+/// at it, or one is tangential to it.
 #[cold]
-fn no_region<Sys: System<N>, const N: usize>(
+pub(super) fn stays<Sys: System<N>, const N: usize>(
     system: &Sys,
-    from: Sys::Region,
+    ((from, rate_from), (to, rate_to)): (Rated<Sys::Region>, Rated<Sys::Region>),
+    interface: usize,
     t: f64,
     x: &Vector<f64, N>,
 ) -> Error {
-    ErrorKind::NoRegion.at(t, x.as_slice(), system.of_region(from).name)
-}
-
-/// A point of an interface with the rates dg/dt = ∂ₜg + ∇g·f of both sides.
-pub(super) struct BothSides<'a, Sys: System<N>, const N: usize> {
-    system: &'a Sys,
-    t: f64,
-    x: &'a Vector<f64, N>,
-    interface: usize,
-    /// A region.
-    from: Sys::Region,
-    rate_from: f64,
-    /// The region on the other side.
-    to: Sys::Region,
-    rate_to: f64,
-}
-
-impl<'a, Sys: System<N>, const N: usize> BothSides<'a, Sys, N> {
-    /// Those of a region, whose rate is known, and its neighbour.
-    #[cold]
-    pub(super) fn new(
-        system: &'a Sys,
-        (from, rate_from): (Sys::Region, f64),
-        interface: usize,
-        t: f64,
-        x: &'a Vector<f64, N>,
-    ) -> Result<Self, Error> {
-        let to = system.neighbour(from, interface);
-        let to = to.ok_or_else(|| no_region(system, from, t, x))?;
-        Ok(Self {
-            system,
-            t,
-            x,
+    let inwards = system.side(to, interface).map_or(0.0, Side::sign);
+    let interface = system.metadata().guard_name(interface);
+    let [from, to] = [from, to].map(|region| system.of_region(region).name);
+    let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
+    let kind = if slides {
+        ErrorKind::Sliding {
             interface,
             from,
-            rate_from,
             to,
-            rate_to: Reading::new(system, to, interface, t, x).rate,
-        })
-    }
-
-    /// The error of a solution that neither of the fields leads away: both point at the interface,
-    /// or one is tangential to it.
-    #[cold]
-    pub(super) fn stays(&self) -> Error {
-        let inwards = self.system.side(self.to, self.interface);
-        let inwards = inwards.map_or(0.0, Side::sign);
-        let interface = self.system.metadata().guard_name(self.interface);
-        let [from, to] = [self.from, self.to].map(|region| self.system.of_region(region).name);
-        let (rate_from, rate_to) = (self.rate_from, self.rate_to);
-        let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
-        let kind = if slides {
-            ErrorKind::Sliding {
-                interface,
-                from,
-                to,
-                rate_from,
-                rate_to,
-            }
-        } else {
-            ErrorKind::Tangential {
-                interface,
-                from,
-                to,
-                rate_from,
-                rate_to,
-            }
-        };
-        kind.at(self.t, self.x.as_slice(), from)
-    }
+            rate_from,
+            rate_to,
+        }
+    } else {
+        ErrorKind::Tangential {
+            interface,
+            from,
+            to,
+            rate_from,
+            rate_to,
+        }
+    };
+    kind.at(t, x.as_slice(), from)
 }

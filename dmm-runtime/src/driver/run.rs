@@ -10,6 +10,7 @@
 
 use super::accumulation::Accumulation;
 use super::conditions::{condition, condition_error};
+use super::modes::Modes;
 use super::next::enter;
 use super::segment::{InMode, Segment};
 use super::start::Start;
@@ -27,24 +28,41 @@ pub(crate) struct Run<Sys: System<N>, Met: Method, const N: usize> {
     pub(crate) memory: Met::Memory<N>,
     pub(crate) statistics: Statistics,
     pub(crate) accumulation: Accumulation,
+    pub(crate) modes: Modes<Sys::Region>,
 }
 
 impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
     /// At the start.
     pub(crate) fn new(
-        method: &Met,
+        (system, method): (&Sys, &Met),
         (t0, x0): (f64, Vector<f64, N>),
         start: Start<Sys::Region>,
         t_end: f64,
     ) -> Self {
         let (time, state) = (Time::new(t0), State::new(x0));
-        Self {
-            cursor: Cursor::new(time, state, Sys::index(start.region), start.on),
-            region: start.region,
-            memory: method.memory(t0, t_end),
+        let cursor = Cursor::new(time, state, 0, start.on);
+        let memory = method.memory(t0, t_end);
+        Self::at((system, method), cursor, start.region, memory)
+    }
+
+    /// At a cursor in a mode.
+    pub(crate) fn at(
+        (system, method): (&Sys, &Met),
+        cursor: Cursor<N>,
+        region: Sys::Region,
+        memory: Met::Memory<N>,
+    ) -> Self {
+        let mut run = Self {
+            accumulation: Accumulation::new(cursor.time),
+            cursor,
+            region,
+            memory,
             statistics: Statistics::default(),
-            accumulation: Accumulation::new(time),
-        }
+            modes: Modes::default(),
+        };
+        let Self { modes, memory, .. } = &mut run;
+        run.cursor.mode = modes.number(system, region, method, memory);
+        run
     }
 
     /// Where it is.
@@ -82,8 +100,8 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
             if observer.point(&self.point()).is_break() {
                 return Ok(());
             }
-            let transition = self.next_mode(system, guard, rate)?;
-            if observer.transition(&transition).is_break()
+            let transition = self.next_mode((system, method), guard, rate)?;
+            if transition.is_some_and(|transition| observer.transition(&transition).is_break())
                 || observer.point(&self.point()).is_break()
             {
                 return Ok(());
@@ -133,29 +151,39 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         }
     }
 
-    /// The transition at a guard that was met: into the next mode.
+    /// What is behind a guard that was met: into the next mode. Nothing is told of an interface
+    /// that has to do with events alone, where none happens.
     pub(crate) fn next_mode(
         &mut self,
-        system: &Sys,
+        (system, method): (&Sys, &Met),
         guard: usize,
         rate: f64,
-    ) -> Result<Transition<Sys::Region, N>, Error> {
+    ) -> Result<Option<Transition<Sys::Region, N>>, Error> {
         let Cursor { time, state, .. } = &self.cursor;
         if let Some(condition) = condition(system.metadata(), guard) {
             let region = system.of_region(self.region).name;
             return Err(condition_error(condition, region, time.value, &state.x));
         }
         (self.accumulation).count(system, (guard, self.region), *time, &state.x)?;
-        let (transition, active) = enter(system, (self.region, rate), guard, *time, state)?;
-        self.statistics.transitions += 1;
-        self.region = transition.to;
-        self.cursor.enter(Sys::index(transition.to), active);
-        Ok(transition)
+        let next = enter(system, (self.region, rate), guard, *time, state)?;
+        self.statistics.transitions += u64::from(next.transition.is_some());
+        self.region = next.mode;
+        if let Some(state) = next.state {
+            self.cursor.state = state;
+        }
+        let Self { modes, memory, .. } = self;
+        let mode = modes.number(system, next.mode, method, memory);
+        self.cursor.enter(mode, next.active);
+        Ok(next.transition)
     }
 
     /// What stopped a method, with names.
     #[cold]
     fn error(&self, system: &Sys, failure: Failure) -> Error {
-        failure.named(system, &self.cursor, self.region)
+        let mut error = failure.named(system, &self.cursor, self.region);
+        if let Some(kind) = self.accumulation.explains(self.cursor.time, &error.kind) {
+            error.kind = kind;
+        }
+        error
     }
 }

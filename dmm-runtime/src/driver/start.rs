@@ -6,6 +6,7 @@
 //! to name the region. On several of them see the module `around`.
 
 use super::around::Around;
+use super::events::with_clocks;
 use super::reading::Reading;
 use crate::contract::{System, Vector};
 use crate::error::{Error, ErrorKind};
@@ -19,13 +20,18 @@ pub(crate) struct Start<R> {
     pub(crate) on: Active,
 }
 
-/// Determines the region of a start at (t, x) that names none.
+/// Determines the region of a start at (t, x) that names none; discrete states are those of `like`,
+/// or the initial ones.
 pub(crate) fn find_region<Sys: System<N>, const N: usize>(
     system: &Sys,
+    like: Option<Sys::Region>,
     t: f64,
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
-    let (region, on) = Around::new(system, None, t, x)?.entered()?;
+    let no_region = || ErrorKind::NoRegion.at(t, x.as_slice(), "");
+    let like = like.or_else(|| system.region(0)).ok_or_else(no_region)?;
+    let like = with_clocks(system, like, t, x)?;
+    let (region, on) = Around::new(system, like, t, x, |_, _| false)?.entered()?;
     Ok(Start { region, on })
 }
 
@@ -36,9 +42,12 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
+    let region = with_clocks(system, region, t, x)?;
     let mut on = Active::default();
-    for (interface, side) in system.of_region(region).sides.iter().enumerate() {
-        let Some(side) = side else { continue };
+    for interface in 0..system.metadata().interfaces.len() {
+        let Some(side) = system.side(region, interface) else {
+            continue;
+        };
         let reading = Reading::new(system, region, interface, t, x);
         if reading.is_zero() {
             if side.sign() * reading.rate <= 0.0 {

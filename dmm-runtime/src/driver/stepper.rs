@@ -96,7 +96,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> InitialValueProblem<'_, Sys, M
             self.integrator.method.clone(),
         );
         Ok(Stepper {
-            run: Run::new(&method, (self.t0, self.x0), start, t_end),
+            run: Run::new((&system, &method), (self.t0, self.x0), start, t_end),
             system,
             method,
             t_end,
@@ -111,12 +111,14 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
     /// # Errors
     /// Whatever stops the integration; the stepper is still at the point before.
     pub fn step(&mut self) -> Result<Option<Stepped<Sys::Region, N>>, Error> {
-        if let Some((guard, rate)) = self.met {
-            let transition = self.run.next_mode(&self.system, guard, rate)?;
-            self.met = None;
-            return Ok(Some(Stepped::Transition(transition)));
-        }
         let (system, method) = (&self.system, &self.method);
+        if let Some((guard, rate)) = self.met {
+            let transition = self.run.next_mode((system, method), guard, rate)?;
+            self.met = None;
+            if let Some(transition) = transition {
+                return Ok(Some(Stepped::Transition(transition)));
+            }
+        }
         match self.run.segment(system, method, self.t_end, &mut Once)? {
             Ended::Finished => return Ok(None),
             Ended::Stopped => {}
@@ -161,12 +163,16 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
         }
         let t = time.value;
         check_values(&system, &x)?;
-        let start = find_region(&system, t, &x)?;
+        let start = find_region(&system, Some(self.run.region), t, &x)?;
         check_conditions(&system, start.region, t, &x)?;
-        let mode = Sys::index(start.region);
-        self.run.cursor = Cursor::new(time, state, mode, start.on);
-        self.run.region = start.region;
-        self.run.memory = self.method.memory(t, self.t_end);
+        let cursor = Cursor::new(time, state, 0, start.on);
+        let memory = self.method.memory(t, self.t_end);
+        let (statistics, accumulation) = (self.run.statistics, self.run.accumulation);
+        self.run = Run {
+            statistics,
+            accumulation,
+            ..Run::at((&system, &self.method), cursor, start.region, memory)
+        };
         self.system = system;
         self.met = None;
         Ok(())

@@ -164,7 +164,9 @@ impl<Met: Method> Ensemble<Met> {
         let mut members = members.into_iter().peekable();
         let in_lanes = members.peek().is_some_and(|first| {
             let system = &first.system;
-            let may = self.lanes && N <= MOST_STATES && system.metadata().conditions.is_empty();
+            let metadata = system.metadata();
+            let is_plain = metadata.conditions.is_empty() && !metadata.has_constants();
+            let may = self.lanes && N <= MOST_STATES && is_plain;
             may && follow_state(system) && Vectorised::fits(system)
         });
         let vectorised = match (in_lanes, self.method.in_lanes()) {

@@ -129,8 +129,8 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             let left = (crossing.from, crossing.rate_from);
             self.region = crossing.from;
             let entered = enter(&self.system, left, interface, self.time, &self.state);
-            let (transition, active) = entered?;
-            (self.region, self.active) = (transition.to, active);
+            let next = entered?;
+            (self.region, self.active) = (next.mode, next.active);
             self.statistics.transitions += 1;
             self.crossing = None;
         }
@@ -141,20 +141,18 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     pub(super) fn go_on(&mut self, method: &Taylor, until: f64) -> Result<Ended, Error> {
         self.judge()?;
         let active = std::mem::take(&mut self.active);
-        let mode = Sys::index(self.region);
+        let cursor = Cursor::new(self.time, self.state, 0, active);
         let mut run = Run::<Sys, Taylor, N> {
-            cursor: Cursor::new(self.time, self.state, mode, active),
-            region: self.region,
-            memory: self.memory,
             statistics: self.statistics,
             accumulation: self.accumulation,
+            ..Run::at((&self.system, method), cursor, self.region, self.memory)
         };
         run.cursor.level = Some(self.kept_level());
         // as of a run that is not observed, whose code there is
         let ended = run.segment(&self.system, method, until, &mut ());
         let ended = ended.and_then(|ended| {
             if let Ended::AtGuard { guard, rate } = ended {
-                run.next_mode(&self.system, guard, rate)?;
+                run.next_mode((&self.system, method), guard, rate)?;
                 self.active = run.cursor.active.clone();
             }
             Ok(ended)

@@ -104,6 +104,10 @@ impl Method for Best {
         }
     }
 
+    fn forget_modes<const N: usize>(&self, memory: &mut Memory<N>) {
+        memory.exact = exact::Memory::default();
+    }
+
     fn segment<D, S, const N: usize, const M: usize>(
         &self,
         dynamics: &D,

@@ -46,6 +46,9 @@ pub trait Method: Clone + Sync {
     /// The memory at the start of a run.
     fn memory<const N: usize>(&self, t0: f64, t_end: f64) -> Self::Memory<N>;
 
+    /// Forgets what was prepared for modes by their numbers.
+    fn forget_modes<const N: usize>(&self, _memory: &mut Self::Memory<N>) {}
+
     /// Steps in one mode, until one of its guards is met or the time `until` is reached.
     ///
     /// # Errors

@@ -6,6 +6,6 @@ mod observer;
 mod solution;
 
 pub use end::{End, Halted};
-pub use observer::{Observer, Point, Transition};
+pub use observer::{Observer, Point, Transition, TransitionKind};
 pub(crate) use solution::Recorder;
 pub use solution::{Interrupted, Solution};

@@ -21,7 +21,17 @@ pub struct Point<R, const N: usize> {
     pub region: R,
 }
 
-/// A crossing of an interface (an "event" in other libraries).
+/// What happened at a transition.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum TransitionKind {
+    /// An interface was crossed.
+    Crossed,
+    /// An event has changed states or discrete states.
+    Jumped,
+}
+
+/// A crossing of an interface, or an event at one (both are "events" in other libraries).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Transition<R, const N: usize> {
     /// t̂*
@@ -30,6 +40,10 @@ pub struct Transition<R, const N: usize> {
     pub time: Time,
     /// x̂*
     pub x: Vector<f64, N>,
+    /// The state behind the transition: x̂*, unless an event has changed it.
+    pub after: Vector<f64, N>,
+    /// What happened.
+    pub kind: TransitionKind,
     /// What is missing from x̂*: with it g and ψ hold far beyond the digits of a double where the
     /// scheme is [`Taylor`](crate::Taylor).
     pub remainder: Vector<f64, N>,

@@ -174,7 +174,7 @@ impl<R: Copy, const N: usize> Recorder<R, N> {
             anchor = Point {
                 t: transition.t,
                 time: transition.time,
-                x: transition.x,
+                x: transition.after,
                 region: transition.to,
             };
         }

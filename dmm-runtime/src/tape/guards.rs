@@ -29,9 +29,25 @@ pub(super) struct TapeSides {
     /// Nothing where the system has no guards.
     pub(super) guards: Option<Arc<GuardsCode>>,
     pub(super) sides: Vec<(usize, Side)>,
+    /// The guards whose side is part of the mode, with the numbers of the parameters that tell it.
+    pub(super) free: Vec<(usize, usize)>,
 }
 
 impl TapeSides {
+    /// With the sides of a mode.
+    fn on<S: Scalar>(self: &Arc<Self>, parameter: impl Fn(usize) -> S) -> Arc<Self> {
+        if self.free.is_empty() {
+            return Arc::clone(self);
+        }
+        let side = |index: usize| Side::of(parameter(index).to_f64() - 0.5);
+        let free = self.free.iter().map(|&(guard, index)| (guard, side(index)));
+        Arc::new(Self {
+            guards: self.guards.clone(),
+            sides: self.sides.iter().copied().chain(free).collect(),
+            free: Vec::new(),
+        })
+    }
+
     /// Whether a guard keeps the sign that it has where the region is entered.
     pub(super) fn keeps_signs(&self) -> bool {
         let oriented = self.guards.iter().flat_map(|guards| &guards.oriented);
@@ -53,9 +69,9 @@ impl<S: Scalar> TapeGuards<S> {
     /// Those with parameters.
     pub(super) fn new(sides: &Arc<TapeSides>, parameter: impl Fn(usize) -> S) -> Self {
         let guards = sides.guards.as_ref();
-        let registers = guards.map(|guards| guards.code.registers(parameter));
+        let registers = guards.map(|guards| guards.code.registers(&parameter));
         Self {
-            sides: Arc::clone(sides),
+            sides: sides.on(parameter),
             registers: RefCell::new(registers.unwrap_or_default()),
             turned: Vec::new(),
         }

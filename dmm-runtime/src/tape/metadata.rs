@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use dmm_compiler::model::Sign;
 use dmm_compiler::program;
 
-use crate::contract::{Condition, Metadata, RegionMetadata, Side};
+use crate::contract::{Condition, Event, Metadata, RegionMetadata, Side};
 
 /// What is kept so far.
 static KEPT: Mutex<Vec<&'static Metadata>> = Mutex::new(Vec::new());
@@ -21,6 +21,9 @@ pub(super) fn kept(names: &program::Metadata) -> &'static Metadata {
         states: texts(&names.states),
         parameters: texts(&names.parameters),
         interfaces: texts(&names.interfaces),
+        discrete: texts(&names.discrete),
+        free: leaked(names.free.iter().copied()),
+        events: leaked(names.events.iter().map(event)),
         conditions: leaked(names.conditions.iter().map(condition)),
         regions: leaked(names.regions.iter().map(region)),
     }));
@@ -35,6 +38,13 @@ fn are_same(known: &Metadata, names: &program::Metadata) -> bool {
         && known.states == names.states
         && known.parameters == names.parameters
         && known.interfaces == names.interfaces
+        && known.discrete == names.discrete
+        && known.free == names.free
+        && known
+            .events
+            .iter()
+            .copied()
+            .eq(names.events.iter().map(event))
         && known.conditions.len() == names.conditions.len()
         && known.regions.len() == names.regions.len()
         && conditions.all(|(known, names)| {
@@ -60,6 +70,16 @@ pub(super) fn side(sign: Sign) -> Side {
     match sign {
         Sign::Negative => Side::Negative,
         Sign::Positive => Side::Positive,
+    }
+}
+
+fn event(one: &program::Event) -> Event {
+    Event {
+        interface: one.interface,
+        rises: one.rises,
+        falls: one.falls,
+        region: one.region,
+        clock: one.clock,
     }
 }
 

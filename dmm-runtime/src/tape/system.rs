@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use dmm_compiler::program::{self, Program};
+use dmm_compiler::program::{self, GuardSide, Program, Quantity};
 use dmm_compiler::scheme;
 
-use super::code::Code;
+use super::code::{Code, Values};
 use super::dynamics::{RegionCode, TapeDynamics};
 use super::guards::{GuardsCode, TapeSides};
 use super::metadata;
 use super::series::{SeriesCode, fixed};
-use crate::arithmetic::Scalar;
-use crate::contract::{DynamicsVisitor, Metadata, Solvability, System};
+use crate::arithmetic::{Scalar, Vector};
+use crate::contract::{DynamicsVisitor, Metadata, Mode, Side, Solvability, System};
 
 /// What is known of a system, whatever its parameters.
 #[derive(Debug)]
@@ -20,8 +20,24 @@ pub(crate) struct SystemCode {
     pub(crate) declaration: String,
     pub(crate) listing: String,
     regions: Vec<Arc<RegionCode>>,
+    events: Option<EventsCode>,
     /// The declared values of the parameters.
     pub(crate) defaults: Vec<f64>,
+    /// The initial values of the discrete states.
+    initial: [f64; MOST_DISCRETE],
+}
+
+/// The most discrete states.
+const MOST_DISCRETE: usize = 15;
+/// The most interfaces with events.
+const MOST_FREE: usize = 64;
+
+/// The events of a system.
+#[derive(Debug)]
+struct EventsCode {
+    code: Code,
+    /// By event: how many conditions it has.
+    conditions: Vec<usize>,
 }
 
 impl SystemCode {
@@ -33,15 +49,21 @@ impl SystemCode {
             .map(|guards| Arc::new(guards_code(guards)));
         let regions = program.dynamics.iter().enumerate();
         let regions = regions.map(|(index, dynamics)| {
-            let sides = program
+            let of_region = program
                 .guards
                 .iter()
                 .flat_map(|guards| &guards.sides[index]);
-            let sides = sides.map(|&(number, sign)| (number, metadata::side(sign)));
-            let sides = TapeSides {
+            let mut sides = TapeSides {
                 guards: guards.clone(),
-                sides: sides.collect(),
+                sides: Vec::new(),
+                free: Vec::new(),
             };
+            for &(number, side_of) in of_region {
+                match side_of {
+                    GuardSide::Fixed(sign) => sides.sides.push((number, metadata::side(sign))),
+                    GuardSide::Free(parameter) => sides.free.push((number, parameter)),
+                }
+            }
             let scheme = &program.scheme.regions[index];
             Arc::new(region_code(
                 dynamics,
@@ -56,6 +78,11 @@ impl SystemCode {
             declaration: model.source.clone(),
             listing,
             regions: regions.collect(),
+            events: program.events.as_ref().map(|events| EventsCode {
+                code: Code::new(&events.functions, []),
+                conditions: events.conditions.clone(),
+            }),
+            initial: initial(program),
             defaults: program.defaults.iter().map(super::default_value).collect(),
         }
     }
@@ -65,6 +92,12 @@ impl SystemCode {
         let regions = self.regions.iter();
         regions.map(|region| region.quantities).max().unwrap_or(0)
     }
+}
+
+/// The initial values of the discrete states, behind which there are zeros.
+fn initial(program: &Program<'_>) -> [f64; MOST_DISCRETE] {
+    let mut values = program.initial.iter().map(super::default_value);
+    std::array::from_fn(|_| values.next().unwrap_or(0.0))
 }
 
 fn guards_code(guards: &program::Guards) -> GuardsCode {
@@ -112,7 +145,10 @@ pub(crate) struct Tape<const N: usize, const M: usize> {
 impl<const N: usize, const M: usize> Tape<N, M> {
     /// The system with parameters, if there is room for it.
     pub(crate) fn new(code: &Arc<SystemCode>, parameters: &[f64]) -> Option<Self> {
-        let fits = code.metadata.states.len() <= N && code.most_quantities() <= M;
+        let metadata = code.metadata;
+        let fits = metadata.states.len() <= N
+            && code.most_quantities() <= M
+            && metadata.free.len() <= MOST_FREE;
         fits.then(|| Self {
             code: Arc::clone(code),
             parameters: parameters.to_vec(),
@@ -120,12 +156,30 @@ impl<const N: usize, const M: usize> Tape<N, M> {
     }
 }
 
+impl<const N: usize, const M: usize> Tape<N, M> {
+    /// Parameter number `index` or, behind the parameters, what is constant in a mode.
+    fn constant(&self, mode: TapeMode, index: usize) -> f64 {
+        let behind = |place: usize| {
+            let discrete = self.code.metadata.discrete.len();
+            mode.constant(match place < discrete {
+                true => place,
+                false => place - discrete + MOST_DISCRETE,
+            })
+        };
+        let parameter = self.parameters.get(index).copied();
+        parameter.unwrap_or_else(|| behind(index - self.parameters.len()))
+    }
+}
+
+/// A mode of a system that was compiled at run time.
+pub(crate) type TapeMode = Mode<TapeRegion, MOST_DISCRETE, MOST_FREE>;
+
 /// A region of a system that was compiled at run time, by its index in [`Metadata::regions`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct TapeRegion(usize);
 
 impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
-    type Region = TapeRegion;
+    type Region = TapeMode;
 
     fn metadata(&self) -> &'static Metadata {
         self.code.metadata
@@ -139,12 +193,61 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
         &self.code.listing
     }
 
-    fn region(&self, index: usize) -> Option<TapeRegion> {
-        (index < self.code.regions.len()).then_some(TapeRegion(index))
+    fn region(&self, index: usize) -> Option<TapeMode> {
+        let is_there = index < self.code.regions.len();
+        is_there.then(|| Mode::new(TapeRegion(index), self.code.initial))
     }
 
-    fn index(region: TapeRegion) -> usize {
-        region.0
+    fn index(region: TapeMode) -> usize {
+        region.region.0
+    }
+
+    fn region_on(&self, sides: &[Side], like: Option<TapeMode>) -> Option<TapeMode> {
+        let region = self.region(self.code.metadata.region_on(sides)?)?;
+        Some(region.on(self.code.metadata, sides, like))
+    }
+
+    fn side(&self, region: TapeMode, interface: usize) -> Option<Side> {
+        region.side(self.code.metadata, region.region.0, interface)
+    }
+
+    fn constants(region: TapeMode) -> Vec<f64> {
+        (0..MOST_DISCRETE)
+            .map(|index| region.constant(index))
+            .collect()
+    }
+
+    fn with_constant(region: TapeMode, index: usize, value: f64) -> TapeMode {
+        region.with_constant(index, value)
+    }
+
+    fn jump(
+        &self,
+        region: TapeMode,
+        event: usize,
+        t: f64,
+        state: &Vector<f64, N>,
+    ) -> Option<(Vector<f64, N>, TapeMode)> {
+        let events = self.code.events.as_ref()?;
+        let routine = events.code.get(Quantity::Event(event))?;
+        let Values::Column(column) = &routine.results else {
+            return None;
+        };
+        let mut registers = events.code.registers(|index| self.constant(region, index));
+        routine.first.run_at(&mut registers, t, state);
+        let values = column.iter().map(|&register| registers[register as usize]);
+        let values: Vec<f64> = values.collect();
+        let (conditions, values) = values.split_at_checked(*events.conditions.get(event)?)?;
+        if !conditions.iter().all(|&condition| condition > 0.0) {
+            return None;
+        }
+        let (states, discrete) = values.split_at_checked(self.code.metadata.states.len())?;
+        let mut mode = region;
+        for (own, &value) in mode.discrete.iter_mut().zip(discrete) {
+            *own = value;
+        }
+        let state = |index: usize| states.get(index).copied().unwrap_or(0.0);
+        Some((Vector::from_fn(|index, _| state(index)), mode))
     }
 
     fn parameters(&self) -> Vec<f64> {
@@ -155,18 +258,22 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
         self.parameters.get_mut(index)
     }
 
-    fn visit<V: DynamicsVisitor<N>>(&self, region: TapeRegion, visitor: V) -> V::Output {
+    fn visit<V: DynamicsVisitor<N>>(&self, region: TapeMode, visitor: V) -> V::Output {
         self.visit_with(region, |index| self.parameters[index], visitor)
     }
 
     fn visit_with<S: Scalar, V: DynamicsVisitor<N, S>>(
         &self,
-        region: TapeRegion,
+        mode: TapeMode,
         parameter: impl Fn(usize) -> S,
         visitor: V,
     ) -> V::Output {
         let known = self.code.regions.len();
-        let region = &self.code.regions[region.0.min(known - 1)];
+        let region = &self.code.regions[mode.region.0.min(known - 1)];
+        let parameter = |index: usize| match index < self.parameters.len() {
+            true => parameter(index),
+            false => S::from_f64(self.constant(mode, index)),
+        };
         visitor.visit(&TapeDynamics::<S, N, M>::new(region, parameter))
     }
 }

@@ -11,13 +11,4 @@ pws! {
     }
 }
 
-pws! {
-    system Jump {
-        state height, velocity;
-        der(height) = velocity;
-        der(velocity) = -1;
-        on floor falling { velocity = -velocity; }
-    }
-}
-
 fn main() {}

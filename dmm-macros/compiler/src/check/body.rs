@@ -92,11 +92,16 @@ impl<'d> Resolver<'d> {
             Item::Conserved(item) => self.conserved(item, body),
             Item::Hamiltonian(item) => self.hamiltonian(item, body),
             Item::For(item) => self.for_item(item, body),
+            Item::Event(event) => {
+                let region = body.region.clone();
+                self.event(event, region.as_ref());
+            }
             // these stand at the top level only
             Item::State(_)
             | Item::Parameter(_)
             | Item::Constant(_)
             | Item::Function(_)
+            | Item::Discrete(_)
             | Item::Interface(_)
             | Item::Region(_) => {}
         }

@@ -9,6 +9,8 @@ pub(super) enum Kind {
     State,
     /// A parameter, or a group of parameters.
     Parameter,
+    /// A discrete state.
+    Discrete,
     /// A `const`.
     Constant,
     /// A `let`.
@@ -28,6 +30,7 @@ impl Kind {
     pub(super) const QUANTITIES: &[Self] = &[
         Self::State,
         Self::Parameter,
+        Self::Discrete,
         Self::Constant,
         Self::Let,
         Self::Argument,
@@ -49,6 +52,7 @@ impl Display for Kind {
         f.write_str(match self {
             Self::State => "state",
             Self::Parameter => "parameter",
+            Self::Discrete => "discrete state",
             Self::Constant => "constant",
             Self::Let => "`let`",
             Self::Interface => "interface",

@@ -71,7 +71,7 @@ impl Resolver<'_> {
                 );
                 (codes::NOT_A_QUANTITY, message)
             }
-            (Kind::State | Kind::Parameter, Allowed::Constant(what), _) => {
+            (Kind::State | Kind::Discrete | Kind::Parameter, Allowed::Constant(what), _) => {
                 if self.scope.names.is_refused(text) {
                     return None;
                 }

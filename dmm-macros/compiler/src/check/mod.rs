@@ -19,6 +19,7 @@ mod advice;
 mod body;
 mod budget;
 mod evaluator;
+mod events;
 mod formula;
 mod functions;
 mod groups;
@@ -57,6 +58,7 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
     let source = declaration.to_string();
     let mut resolver = Resolver::new(&declaration, diagnostics);
     resolver.top_level(&declaration);
+    resolver.events(&declaration);
     let regions = resolver.regions(&declaration);
     resolver.unused();
     let Resolver {
@@ -66,6 +68,8 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
                 states,
                 parameters,
                 interfaces,
+                discrete,
+                events,
                 ..
             },
         reporter: Reporter { diagnostics, .. },
@@ -80,6 +84,8 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
         states,
         parameters,
         interfaces: interfaces.into_iter().flatten().collect(),
+        discrete,
+        events,
         regions,
         source,
     })
@@ -126,7 +132,9 @@ impl<'d> Resolver<'d> {
                 Item::Let(definition) => self.define(definition, Kind::Let, Allowed::All),
                 Item::Function(function) => self.function(function),
                 Item::Interface(interface) => self.interface(interface),
-                Item::Region(_)
+                Item::Discrete(item) => self.discrete(item),
+                Item::Event(_)
+                | Item::Region(_)
                 | Item::Derivative(_)
                 | Item::Conserved(_)
                 | Item::Hamiltonian(_)

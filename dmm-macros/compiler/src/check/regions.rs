@@ -10,7 +10,7 @@ use super::body::Body;
 use crate::algebra::Id;
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::check as codes;
-use crate::model::{Interface, Parameter, Region, Side, State};
+use crate::model::{Discrete, Event, Interface, Parameter, Region, Side, State};
 use crate::syntax::{Declaration, Item, RegionItem};
 
 /// The region of a system without interface.
@@ -23,6 +23,8 @@ pub(super) struct Regions {
     /// By name: the index of the first element, and the number of elements of a group.
     pub(super) state_groups: BTreeMap<String, (usize, Option<usize>)>,
     pub(super) parameters: Vec<Parameter>,
+    pub(super) discrete: Vec<Discrete>,
+    pub(super) events: Vec<Event>,
     /// By interface; nothing where its formula is wrong.
     pub(super) interfaces: Vec<Option<Interface>>,
     /// Whether a region is missing, and with it whatever it would use.
@@ -78,9 +80,6 @@ impl<'d> Resolver<'d> {
 
     /// The only region of a smooth system.
     fn everywhere(&mut self, declaration: &Declaration, body: Body) -> Option<Region> {
-        if !self.regions.interfaces.is_empty() {
-            return None;
-        }
         let ident = Ident::new(EVERYWHERE, declaration.name.span());
         let field = self.complete(&body, &declaration.name, &[])?;
         Some(finished(Vec::new(), &ident, Vec::new(), field, body))

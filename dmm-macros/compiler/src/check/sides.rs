@@ -99,11 +99,22 @@ impl Resolver<'_> {
         let Some(&first) = interfaces.first() else {
             return;
         };
+        let declared = declaration.items.iter();
+        let events = declared
+            .filter(|item| matches!(item, Item::Event(_)))
+            .count();
+        // a wrong event was meant to be at an interface
+        if items.is_empty() && self.regions.events.len() < events {
+            return;
+        }
         if items.is_empty() {
+            let Some(first) = interfaces.iter().find(|ident| !self.has_event(ident)) else {
+                return;
+            };
             let message = format!(
                 "the interface `{first}` bounds no region: write `region … where {first} > 0 {{ … }}` and `region … where {first} < 0 {{ … }}`, with the `der` items in them"
             );
-            self.report(codes::NO_REGION, first, message);
+            self.report(codes::NO_REGION, *first, message);
             self.regions.lacks_region = true;
             return;
         }
@@ -130,6 +141,17 @@ impl Resolver<'_> {
             );
             self.report(codes::REGION_MISSING, *place.unwrap_or(&first), message);
         }
+    }
+
+    /// Whether an event happens at an interface.
+    fn has_event(&self, ident: &Ident) -> bool {
+        let interfaces = self.regions.interfaces.iter().enumerate();
+        let mut named = interfaces.filter(|(_, interface)| match interface {
+            Some(interface) => interface.ident == *ident,
+            None => false,
+        });
+        let events = &self.regions.events;
+        named.any(|(index, _)| events.iter().any(|event| event.interface == index))
     }
 
     /// Whether patterns of two regions overlap, which is reported.

@@ -34,6 +34,8 @@ pub enum Quantity {
     SwitchingSize(usize),
     /// ∂ₜg(t, x) and ∇g(t, x)
     SwitchingGradient(usize),
+    /// What has to hold for an event, by its number, and the values after it.
+    Event(usize),
 }
 
 impl Quantity {

@@ -12,7 +12,7 @@ use super::results::Results;
 use super::series::Series;
 use super::size::rounding;
 use crate::algebra::{Dag, Id, Name};
-use crate::model::Sign;
+use crate::model::{Region, Sign};
 use crate::proofs::Derivatives;
 use crate::scheme::{CheckedCondition, Scheme, SwitchingScheme};
 
@@ -27,7 +27,7 @@ pub struct Guards {
     pub series: Series,
     /// By region: the functions that bound it with the sign that they have there, interfaces
     /// before conditions.
-    pub sides: Vec<Vec<(usize, Sign)>>,
+    pub sides: Vec<Vec<(usize, GuardSide)>>,
     /// The conditions that are positive with either sign.
     pub oriented: Vec<usize>,
     /// The number of the first condition, if there is one.
@@ -82,6 +82,15 @@ impl Guards {
     }
 }
 
+/// The sign of a function in a region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GuardSide {
+    /// It is known.
+    Fixed(Sign),
+    /// It is positive where the parameter of this number is 1, and negative where it is 0.
+    Free(usize),
+}
+
 /// The switching functions of the interfaces, then the functions of the conditions.
 fn switching(scheme: &Scheme) -> impl Iterator<Item = (Id, &SwitchingScheme)> {
     let interfaces = scheme.model.interfaces.iter().zip(&scheme.interfaces);
@@ -100,17 +109,22 @@ fn conditions(scheme: &Scheme) -> impl Iterator<Item = (usize, &CheckedCondition
 }
 
 /// The sides of every region.
-fn sides(scheme: &Scheme) -> Vec<Vec<(usize, Sign)>> {
-    let regions = scheme.model.regions.iter().enumerate();
-    regions
-        .map(|(index, region)| {
-            let interfaces = region.sides.iter().map(|one| (one.interface, one.sign));
-            let conditions = conditions(scheme)
-                .filter(|(_, condition)| condition.region == index)
-                .map(|(number, _)| (number, Sign::Positive));
-            interfaces.chain(conditions).collect()
-        })
-        .collect()
+fn sides(scheme: &Scheme) -> Vec<Vec<(usize, GuardSide)>> {
+    let model = &scheme.model;
+    let free = model.free_interfaces();
+    let first = model.parameters.len() + model.discrete.len();
+    let of_region = |(index, region): (usize, &Region)| {
+        let bounds = |interface: usize| region.sides.iter().any(|one| one.interface == interface);
+        let fixed = region.sides.iter();
+        let fixed = fixed.map(|one| (one.interface, GuardSide::Fixed(one.sign)));
+        let free = free.iter().enumerate().filter(|(_, one)| !bounds(**one));
+        let free = free.map(|(place, &one)| (one, GuardSide::Free(first + place)));
+        let conditions = conditions(scheme)
+            .filter(|(_, condition)| condition.region == index)
+            .map(|(number, _)| (number, GuardSide::Fixed(Sign::Positive)));
+        fixed.chain(free).chain(conditions).collect()
+    };
+    model.regions.iter().enumerate().map(of_region).collect()
 }
 
 /// The numbers of the conditions that keep a sign.

@@ -1,6 +1,7 @@
 //! What a machine is told of a system besides its functions: names, and where the regions lie.
 
-use crate::model::{Model, Region, Sign, plain_text};
+use crate::algebra::Id;
+use crate::model::{self, Model, Region, Sign, plain_text};
 use crate::scheme::Scheme;
 
 /// The names in a system, and where its regions lie.
@@ -14,6 +15,12 @@ pub struct Metadata {
     pub parameters: Vec<String>,
     /// The names of the interfaces.
     pub interfaces: Vec<String>,
+    /// The names of the discrete states.
+    pub discrete: Vec<String>,
+    /// The interfaces whose side is part of a mode whether they bound its region or not.
+    pub free: Vec<usize>,
+    /// What happens in an instant.
+    pub events: Vec<Event>,
     /// The conditions of proofs that a run has to check.
     pub conditions: Vec<Condition>,
     /// The regions.
@@ -31,6 +38,21 @@ pub struct Condition {
     pub quantities: String,
     /// Whether the condition is u ≠ 0, so that the sign of u is kept.
     pub keeps_sign: bool,
+}
+
+/// When an event happens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Event {
+    /// The index of the interface.
+    pub interface: usize,
+    /// Whether it happens where g changes from − to +.
+    pub rises: bool,
+    /// Whether it happens where g changes from + to −.
+    pub falls: bool,
+    /// The index of the region that it happens in; nothing where it happens in all of them.
+    pub region: Option<usize>,
+    /// The index of the discrete state that counts it, if it is periodic.
+    pub clock: Option<usize>,
 }
 
 /// The names in a region, and where it lies.
@@ -67,10 +89,41 @@ impl Metadata {
             interfaces: (model.interfaces.iter())
                 .map(|one| plain_text(&one.ident))
                 .collect(),
+            discrete: (model.discrete.iter())
+                .map(|one| plain_text(&one.ident))
+                .collect(),
+            free: model.free_interfaces(),
+            events: model
+                .events
+                .iter()
+                .map(|one| Event::new(model, one))
+                .collect(),
             conditions: conditions.collect(),
             regions: (model.regions.iter())
                 .map(|region| RegionMetadata::new(model, region))
                 .collect(),
+        }
+    }
+}
+
+impl Event {
+    fn new(model: &Model, event: &model::Event) -> Self {
+        let region = event.region.as_ref().and_then(|ident| {
+            let mut regions = model.regions.iter();
+            regions.position(|region| region.ident == *ident)
+        });
+        let is_clock =
+            |(index, _): &&(usize, Id)| model.discrete.get(*index).is_some_and(|one| one.is_clock);
+        Self {
+            interface: event.interface,
+            rises: event.rises,
+            falls: event.falls,
+            region,
+            clock: event
+                .discrete
+                .iter()
+                .find(is_clock)
+                .map(|&(index, _)| index),
         }
     }
 }

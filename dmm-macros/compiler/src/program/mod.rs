@@ -18,6 +18,7 @@
 
 mod constant;
 mod dynamics;
+mod events;
 mod function;
 mod guards;
 mod inputs;
@@ -33,11 +34,12 @@ use crate::algebra::{Id, Name};
 use crate::scheme::Scheme;
 pub use constant::nearest_double;
 pub use dynamics::Dynamics;
+pub use events::Events;
 pub use function::{Function, Functions, Quantity, Stage};
-pub use guards::Guards;
+pub use guards::{GuardSide, Guards};
 pub use inputs::{Input, Variable};
 pub use lower::Lowered;
-pub use metadata::{Condition, Metadata, RegionMetadata};
+pub use metadata::{Condition, Event, Metadata, RegionMetadata};
 use optimise::Optimiser;
 pub use results::{Derivative, Projected, Results, Rows};
 pub use series::Series;
@@ -52,14 +54,19 @@ pub struct Program<'a> {
     pub metadata: Metadata,
     /// The states, in order.
     pub states: Vec<Name>,
-    /// The parameters, in order.
+    /// The parameters, in order, and behind them what else is constant in a mode: see
+    /// [`Model::constants`](crate::model::Model::constants).
     pub parameters: Vec<Name>,
     /// The declared values of the parameters, in the same order.
     pub defaults: Vec<DefaultValue>,
+    /// The initial values of the discrete states.
+    pub initial: Vec<DefaultValue>,
     /// The functions of each region, in the order of the declaration.
     pub dynamics: Vec<Dynamics>,
     /// The functions of the interfaces and the checked conditions, if there are any.
     pub guards: Option<Guards>,
+    /// The functions of the events, if there are any.
+    pub events: Option<Events>,
 }
 
 /// The declared value of a parameter: an expression without variables.
@@ -89,11 +96,8 @@ impl<'a> Program<'a> {
         let model = &scheme.model;
         let mut dag = scheme.dag().clone();
         let states = model.state_names();
-        let parameters: Vec<Name> = model
-            .parameters
-            .iter()
-            .map(|one| one.name.clone())
-            .collect();
+        let parameters = model.parameters.iter().map(|one| one.name.clone());
+        let parameters: Vec<Name> = parameters.chain(model.constants()).collect();
         let regions = 0..scheme.regions.len();
         let dynamics = regions
             .map(|region| Dynamics::new(scheme, region, &mut dag, &parameters, optimiser))
@@ -101,11 +105,15 @@ impl<'a> Program<'a> {
         let is_bounded =
             !scheme.interfaces.is_empty() || scheme.checked_conditions().next().is_some();
         let guards = is_bounded.then(|| Guards::new(scheme, &mut dag, &parameters, optimiser));
+        let events = (!model.events.is_empty()).then(|| Events::new(scheme, &mut dag, &parameters));
         Self {
             defaults: model
                 .parameters
                 .iter()
                 .map(|one| DefaultValue::new(scheme, one.default))
+                .collect(),
+            initial: (model.discrete.iter())
+                .map(|one| DefaultValue::new(scheme, one.initial))
                 .collect(),
             metadata: Metadata::new(scheme),
             scheme,
@@ -113,6 +121,7 @@ impl<'a> Program<'a> {
             parameters,
             dynamics,
             guards,
+            events,
         }
     }
 }

@@ -240,7 +240,7 @@ fn in_region(region: &Region) -> String {
 }
 
 /// `x*y, which is 0.25 at x = 0.5, y = 0.5`
-fn refutation(dag: &Dag, counterexample: &Counterexample) -> String {
+pub(super) fn refutation(dag: &Dag, counterexample: &Counterexample) -> String {
     let residual = shortened(&to_text(dag, counterexample.residual));
     if dag.as_constant(counterexample.residual).is_some() {
         return residual;

@@ -19,6 +19,7 @@
 
 pub(crate) mod conditions;
 mod conservation;
+mod events;
 mod independence;
 mod interfaces;
 mod message;
@@ -69,6 +70,7 @@ pub fn prove(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Proved> 
             Err(problem) => problem.report(interface, diagnostics),
         }
     }
+    events::prove(&mut model, &variables, diagnostics);
     let regions: Vec<ProvedRegion> = proved.into_iter().collect::<Option<_>>()?;
     (diagnostics.len() == before).then_some(Proved {
         model,
@@ -161,11 +163,11 @@ struct Variables {
 impl Variables {
     fn of(model: &Model) -> Self {
         let states = model.state_names();
-        let parameters: Vec<(Name, Id)> = model
-            .parameters
-            .iter()
-            .map(|parameter| (parameter.name.clone(), parameter.default))
-            .collect();
+        let parameters = model.parameters.iter();
+        let parameters = parameters.map(|one| (one.name.clone(), one.default));
+        let discrete = model.discrete.iter();
+        let discrete = discrete.map(|one| (one.name.clone(), one.initial));
+        let parameters: Vec<(Name, Id)> = parameters.chain(discrete).collect();
         let all = states
             .iter()
             .cloned()

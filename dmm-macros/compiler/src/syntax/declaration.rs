@@ -32,8 +32,12 @@ pub enum Item {
     Let(Definition),
     /// `fn V(q) = q^2/2;`
     Function(FunctionItem),
+    /// `discrete u = 1;`
+    Discrete(Definition),
     /// `interface wall = y;`
     Interface(Definition),
+    /// `on wall falling { v = -v; }`, `every 2 { … }`, `at 3 { … }`
+    Event(EventItem),
     /// `region above where wall > 0 { … }`
     Region(RegionItem),
     /// `der(x) = y;`, `der(q[i]) = p[i];`
@@ -175,6 +179,81 @@ pub struct Condition {
     pub interface: Ident,
     /// How its switching function compares with zero.
     pub relation: Relation,
+}
+
+/// `on wall falling where v < 0 { v = -e * v; conserves momentum; }`
+#[derive(Debug, Clone)]
+pub struct EventItem {
+    /// Documentation comments.
+    pub attributes: Vec<Attribute>,
+    /// When it happens.
+    pub trigger: Trigger,
+    /// What has to hold then.
+    pub conditions: Vec<Comparison>,
+    /// What changes, all from the values before.
+    pub assignments: Vec<Assignment>,
+    /// The names of the quantities that do not change.
+    pub conserved: Vec<Ident>,
+    /// Where its head stands.
+    pub extent: Extent,
+}
+
+/// When an event happens.
+#[derive(Debug, Clone)]
+pub enum Trigger {
+    /// `on interface`: where its function changes its sign.
+    On {
+        /// The interface's name.
+        interface: Ident,
+        /// Which way.
+        direction: Direction,
+    },
+    /// `every period`: at the times 0, ± period, ± 2 period …
+    Every(Expression),
+    /// `at time`
+    At(Expression),
+}
+
+/// Which way a switching function changes its sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// From − to +.
+    Rising,
+    /// From + to −.
+    Falling,
+    /// Either way.
+    Both,
+}
+
+impl Direction {
+    /// The word of the language; nothing for both.
+    pub fn word(self) -> Option<&'static str> {
+        match self {
+            Self::Rising => Some("rising"),
+            Self::Falling => Some("falling"),
+            Self::Both => None,
+        }
+    }
+}
+
+/// `left < right`
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// What is compared.
+    pub left: Expression,
+    /// How.
+    pub relation: Relation,
+    /// What it is compared with.
+    pub right: Expression,
+}
+
+/// `target = formula`
+#[derive(Debug, Clone)]
+pub struct Assignment {
+    /// The state or discrete state that changes.
+    pub target: Target,
+    /// Its new value.
+    pub formula: Expression,
 }
 
 /// A strict comparison with zero.

@@ -7,10 +7,8 @@ use syn::{Attribute, Token, braced, token};
 use super::definition::{conserved, definitions, derivative, interface};
 use super::place::Place;
 use super::{ConservedItem, Definition, ForItem, Item, RegionItem};
-use super::{canonical, condition, documentation, formula, group, mistake, name, unknown};
-use crate::diagnostics::catalogue::syntax::{
-    ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, NOT_YET, REGION,
-};
+use super::{canonical, condition, documentation, event, formula, group, mistake, name, unknown};
+use crate::diagnostics::catalogue::syntax::{ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, REGION};
 use crate::diagnostics::{Diagnostics, Extent};
 
 /// Loops may be nested this deep.
@@ -104,6 +102,7 @@ fn behind_keyword(
         "param" => return Ok(group::parameters(input, &attributes, diagnostics)),
         "state" => Item::State(group::states(input, &attributes, diagnostics)),
         "fn" => Item::Function(canonical::function(input, attributes)?),
+        "discrete" => return list(Item::Discrete),
         "interface" => Item::Interface(interface(input, attributes)?),
         "region" => Item::Region(region(input, attributes, diagnostics)?),
         "der" => Item::Derivative(derivative(input, attributes)?),
@@ -114,10 +113,7 @@ fn behind_keyword(
         }),
         "assume" => Item::Conserved(assumed(input, attributes)?),
         "for" => Item::For(repeat(input, &attributes, place, diagnostics)?),
-        _ => {
-            let message = "state jumps (`on`) are not supported yet: a trajectory is continuous across an interface";
-            return Err(NOT_YET.error(keyword, message));
-        }
+        _ => Item::Event(event::event(input, keyword, attributes, diagnostics)?),
     };
     Ok(vec![item])
 }

@@ -42,6 +42,7 @@ mod canonical;
 mod condition;
 mod declaration;
 mod definition;
+mod event;
 mod expression;
 mod formula;
 mod group;
@@ -64,8 +65,9 @@ use syn::{Attribute, Visibility, braced, token};
 use crate::diagnostics::catalogue::syntax::{ATTRIBUTE, DEPTH, HEAD, NUMBER, ONE_SYSTEM, SYNTAX};
 use crate::diagnostics::{Code, Diagnostics, Extent};
 pub use declaration::{
-    Condition, ConservedItem, Declaration, Defaults, Definition, Derivative, ForItem, FunctionItem,
-    Group, HamiltonianItem, Item, ParameterItem, Range, RegionItem, Relation, Target,
+    Assignment, Comparison, Condition, ConservedItem, Declaration, Defaults, Definition,
+    Derivative, Direction, EventItem, ForItem, FunctionItem, Group, HamiltonianItem, Item,
+    ParameterItem, Range, RegionItem, Relation, Target, Trigger,
 };
 pub use expression::{Expression, ExpressionKind, Operator};
 pub(crate) use name::{is_identifier, is_name_of_type};

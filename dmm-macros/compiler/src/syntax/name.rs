@@ -28,6 +28,10 @@ pub(super) const KEYWORDS: &[&str] = &[
     "sum",
     "on",
     "and",
+    "discrete",
+    "every",
+    "at",
+    "conserves",
 ];
 
 /// The words that begin an item.
@@ -45,6 +49,9 @@ pub(super) const ITEMS: &[&str] = &[
     "assume",
     "for",
     "on",
+    "discrete",
+    "every",
+    "at",
 ];
 
 /// Types that every Rust program knows, and that a system of this name would hide from the code

@@ -5,8 +5,8 @@ use std::fmt::{self, Display, Formatter, Write};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, Visibility};
 
 use super::{
-    Condition, Declaration, Defaults, Definition, Expression, ExpressionKind, Group, Item,
-    Operator, ParameterItem, Range, Target,
+    Assignment, Comparison, Condition, Declaration, Defaults, Definition, EventItem, Expression,
+    ExpressionKind, Group, Item, Operator, ParameterItem, Range, Target, Trigger,
 };
 
 impl Display for Expression {
@@ -98,6 +98,22 @@ impl Display for Condition {
     }
 }
 
+impl Display for Trigger {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::On {
+                interface,
+                direction,
+            } => match direction.word() {
+                Some(word) => write!(f, "on {interface} {word}"),
+                None => write!(f, "on {interface}"),
+            },
+            Self::Every(period) => write!(f, "every {period}"),
+            Self::At(time) => write!(f, "at {time}"),
+        }
+    }
+}
+
 impl Display for Declaration {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         documentation(f, &self.attributes, "")?;
@@ -131,7 +147,9 @@ fn print(f: &mut Formatter<'_>, item: &Item, indent: &str) -> fmt::Result {
         Item::Parameter(item) => parameter(f, item, indent),
         Item::Constant(item) => definition(f, "const", item, indent),
         Item::Let(item) => definition(f, "let", item, indent),
+        Item::Discrete(item) => definition(f, "discrete", item, indent),
         Item::Interface(item) => definition(f, "interface", item, indent),
+        Item::Event(event) => print_event(f, event, indent),
         Item::Conserved(item) if item.assumed => {
             definition(f, "assume conserved", &item.definition, indent)
         }
@@ -179,6 +197,29 @@ fn print(f: &mut Formatter<'_>, item: &Item, indent: &str) -> fmt::Result {
             writeln!(f, "{indent}}}")
         }
     }
+}
+
+fn print_event(f: &mut Formatter<'_>, event: &EventItem, indent: &str) -> fmt::Result {
+    documentation(f, &event.attributes, indent)?;
+    write!(f, "{indent}{}", event.trigger)?;
+    for (index, condition) in event.conditions.iter().enumerate() {
+        let word = if index == 0 { "where" } else { "and" };
+        let Comparison {
+            left,
+            right,
+            relation,
+        } = condition;
+        write!(f, " {word} {left} {} {right}", relation.symbol())?;
+    }
+    f.write_str(" {\n")?;
+    for Assignment { target, formula } in &event.assignments {
+        writeln!(f, "{indent}    {target} = {formula};")?;
+    }
+    if !event.conserved.is_empty() {
+        let names: Vec<String> = event.conserved.iter().map(ToString::to_string).collect();
+        writeln!(f, "{indent}    conserves {};", names.join(", "))?;
+    }
+    writeln!(f, "{indent}}}")
 }
 
 /// Undocumented states share a line, documented ones have their own.

@@ -16,9 +16,9 @@ use crate::diagnostics::{Code, closest};
 fn expected(place: Place) -> &'static str {
     match place {
         Place::System => {
-            "expected `state`, `param`, `const`, `let`, `fn`, `interface`, `region`, `der`, `hamiltonian`, `conserved` or `for`"
+            "expected `state`, `param`, `const`, `let`, `fn`, `interface`, `region`, `der`, `hamiltonian`, `conserved`, `discrete`, `on`, `every`, `at` or `for`"
         }
-        Place::Region => "expected `let`, `der`, `hamiltonian`, `conserved` or `for`",
+        Place::Region => "expected `let`, `der`, `hamiltonian`, `conserved`, `on` or `for`",
         Place::Loop(_) => "expected `der`, `conserved` or `for`",
     }
 }
@@ -28,7 +28,11 @@ pub(super) fn misplaced(keyword: &Ident, place: Place) -> Option<syn::Error> {
     let text = keyword.to_string();
     let message = match (place, text.as_str()) {
         (Place::System, _) => return None,
-        (_, "state" | "param" | "const" | "fn" | "interface" | "region" | "on") => {
+        (
+            _,
+            "state" | "param" | "const" | "fn" | "interface" | "region" | "discrete" | "every"
+            | "at",
+        ) => {
             let block = match place {
                 Place::Loop(_) => "a loop",
                 _ => "a region",
@@ -42,6 +46,7 @@ pub(super) fn misplaced(keyword: &Ident, place: Place) -> Option<syn::Error> {
         (Place::Loop(_), "hamiltonian") => {
             "a loop has no `hamiltonian`: write one with a `sum` in front of it".to_owned()
         }
+        (Place::Loop(_), "on") => "a loop has no `on`: write one for each interface".to_owned(),
         _ => return None,
     };
     Some(MISPLACED_ITEM.error(keyword, message))

@@ -26,6 +26,7 @@ impl Names {
                 Item::Parameter(item) => {
                     names.declare(&item.group.ident, Kind::Parameter, diagnostics)
                 }
+                Item::Discrete(item) => names.declare(&item.ident, Kind::Discrete, diagnostics),
                 Item::Constant(item) => names.declare(&item.ident, Kind::Constant, diagnostics),
                 Item::Let(item) => names.declare(&item.ident, Kind::Let, diagnostics),
                 Item::Interface(item) => names.declare(&item.ident, Kind::Interface, diagnostics),

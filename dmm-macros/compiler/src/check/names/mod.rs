@@ -225,7 +225,7 @@ fn unused(symbols: &BTreeMap<String, Symbol>) -> Vec<(Kind, Ident)> {
     let mut unused: Vec<&Symbol> = symbols
         .values()
         .filter(|symbol| {
-            let counts = !matches!(symbol.kind, Kind::State | Kind::Interface);
+            let counts = !matches!(symbol.kind, Kind::State | Kind::Discrete | Kind::Interface);
             counts && !symbol.used && !is_meant_to_be_unused(&symbol.ident)
         })
         .collect();

@@ -1,6 +1,7 @@
 //! What a correct declaration becomes, and what is said about a wrong one.
 
 mod declared;
+mod events;
 mod formulas;
 mod functions;
 mod groups;

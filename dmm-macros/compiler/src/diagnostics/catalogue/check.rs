@@ -144,4 +144,14 @@ super::codes! {
     REGION_MISSING = 269, "a region is missing",
         "Together, the regions cover the whole space.",
         "Declare the region with the signs that the message names, or leave a condition out of another one.";
+
+    EVENT_TARGET = 270, "an event changes something that is no state",
+        "Between events states follow their `der`, and discrete states are constant; nothing else changes.",
+        "Declare `discrete name = …;` with its initial value, or correct the name.";
+    EVENT_TWICE = 271, "an event gives something two values",
+        "All new values are computed from the values before, at once, so that their order means nothing.",
+        "Write one formula for each state that changes.";
+    EVENT_TIME = 272, "the time of an event cannot be known beforehand",
+        "`every` and `at` take times that parameters and constants tell; what depends on states is an interface.",
+        "Write a formula of parameters, or declare an interface and `on` it.";
 }

@@ -40,4 +40,7 @@ super::codes! {
     EMPTY_DOMAIN = 312, "a conserved quantity has no value anywhere",
         "What its formulas and f need excludes itself, or holds nowhere in the region: ln(x) and ln(-x) are nowhere both defined, and ln(x) is not in a region where x < 0.",
         "Correct a sign, or the region; leave the quantity out where it has no value.";
+    NOT_CONSERVED_BY_EVENT = 313, "an event does not conserve what it claims to",
+        "Behind the event, at points of the interface, ψ is not what it is in front of it.",
+        "Correct what the event changes, or leave the quantity out of `conserves`: its level is taken anew behind every event.";
 }

@@ -23,8 +23,8 @@ super::codes! {
         "States, parameters, constants, functions, interfaces and regions belong to the whole system. A loop repeats `der`, `conserved`, `assume conserved` and `for` items alone.",
         "Move the item to the top level of the system, or in front of the loop.";
     NOT_YET = 107, "this is not supported yet",
-        "The item has its place in the language but the integrators cannot use it yet: a trajectory is continuous, and crosses an interface or stops with an error.",
-        "Remove it. Where a trajectory would slide or jump, the integration stops with an error that says where.";
+        "The item has its place in the language but the integrators cannot use it yet.",
+        "Remove it. Where a trajectory would slide, the integration stops with an error that says where.";
     SEMICOLON = 108, "a `;` or `,` is missing",
         "An item ends with `;`, and the definitions of a list are separated by `,`. The end of a line means nothing.",
         "Write the `;` behind the item.";
@@ -112,4 +112,7 @@ super::codes! {
     ASSUME = 136, "`assume` is not followed by `conserved`",
         "Only a conserved quantity can be assumed.",
         "Write `assume conserved energy = …;`.";
+    EVENT = 137, "an event is not written as one",
+        "An event says when it happens, what has to hold then, and what changes, all of it from the values before.",
+        "Write `on interface falling { x = …; }`, with `rising` or `falling` or neither, and `where a > b` behind it if it has a condition; or `every 2 { … }`, `at 3 { … }`.";
 }

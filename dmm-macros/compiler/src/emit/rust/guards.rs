@@ -14,11 +14,11 @@ use super::paths;
 use super::series::{self, States};
 use super::store::{Store, constructor_impl};
 use crate::model::Sign;
-use crate::program::{Function, Guards, Quantity, Results};
+use crate::program::{Function, GuardSide, Guards, Quantity, Results};
 
 /// The struct `name` of the guards with its `impl`s.
 pub(super) fn guards(emission: &Emission<'_>, name: &Ident, program: &Guards) -> TokenStream {
-    let store = Store::new(&program.functions, &["orientation"]);
+    let store = Store::new(&program.functions, &["orientation", "sides"]);
     let scope = Scope {
         lowered: &program.functions.lowered,
         store: &store,
@@ -34,6 +34,20 @@ pub(super) fn guards(emission: &Emission<'_>, name: &Ident, program: &Guards) ->
         values.extend(quote!(orientation: [1.0; #signs],));
         quote!(orientation: [f64; #signs],)
     });
+    let [side, fixed] = ["Side", "sides"].map(paths::support);
+    let sides = is_free(program).then(|| {
+        let sides = program.sides.iter().enumerate().map(|(region, sides)| {
+            let (region, sides) = (paths::count(region), sides.iter().map(free_side));
+            quote!(#region => #fixed(&[#(#sides),*]),)
+        });
+        values.extend(quote! {
+            sides: match REGION {
+                #(#sides)*
+                _ => #fixed(&[]),
+            },
+        });
+        quote!(sides: [(usize, #side); COUNT],)
+    });
     let constructor = constructor_impl(
         scalar,
         &quote!(const REGION: usize, const COUNT: usize),
@@ -46,7 +60,7 @@ pub(super) fn guards(emission: &Emission<'_>, name: &Ident, program: &Guards) ->
     quote! {
         /// The `COUNT` guards of region number `REGION`: its interfaces, and conditions of proofs.
         #[derive(Clone, Copy, Debug)]
-        struct #name<#scalar, const REGION: usize, const COUNT: usize> { #orientation #fields }
+        struct #name<#scalar, const REGION: usize, const COUNT: usize> { #orientation #sides #fields }
         #constructor
         #implementation
     }
@@ -71,6 +85,7 @@ fn implementation(
     let (orientation, orient) = turns.orient(&vector, &quote!(#states));
     let other = &emission.other;
     let fields = scope.store.converted(scalar, other);
+    let sides = is_free(program).then(|| quote!(sides: self.sides,));
     quote! {
         #[automatically_derived]
         impl<#scalar: #bound, const REGION: usize, const COUNT: usize>
@@ -85,7 +100,7 @@ fn implementation(
             type Over<#other: #bound> = #name<#other, REGION, COUNT>;
             #[inline]
             fn over<#other: #bound>(&self) -> Self::Over<#other> {
-                #name { #orientation #fields }
+                #name { #orientation #sides #fields }
             }
             #orient
             #functions
@@ -104,14 +119,19 @@ fn constants(program: &Guards) -> TokenStream {
             fn is_condition(&self, guard: usize) -> bool { guard >= #first }
         }
     });
-    let regions = paths::count(program.sides.len());
-    let sides = program.sides.iter().map(|sides| {
-        let sides = sides.iter().map(|&(number, side_of)| {
-            let (number, sign) = (paths::count(number), sign(side_of));
-            quote!((#number, #side::#sign))
+    let sides = if is_free(program) {
+        quote!(&self.sides)
+    } else {
+        let regions = paths::count(program.sides.len());
+        let sides = program.sides.iter().map(|sides| {
+            let sides = sides.iter().map(free_side);
+            quote!(&[#(#sides),*])
         });
-        quote!(&[#(#sides),*])
-    });
+        quote! {
+            const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
+            const { BY_REGION[REGION] }
+        }
+    };
     let autonomous = program.autonomous;
     let is_affine = program.degree.is_some_and(|degree| degree <= 1);
     let degree = match program.degree {
@@ -129,13 +149,33 @@ fn constants(program: &Guards) -> TokenStream {
         #is_condition
         #[inline(always)]
         fn sides(&self) -> &[(usize, #side)] {
-            const BY_REGION: [&[(usize, #side)]; #regions] = [#(#sides),*];
-            const { BY_REGION[REGION] }
+            #sides
         }
         #[inline(always)]
         fn is_autonomous(&self) -> bool { #autonomous }
         #[inline(always)]
         fn degree(&self) -> ::core::option::Option<u32> { #degree }
+    }
+}
+
+/// Whether the side of a guard is a part of the mode.
+fn is_free(program: &Guards) -> bool {
+    let mut sides = program.sides.iter().flatten();
+    sides.any(|(_, side)| matches!(side, GuardSide::Free(_)))
+}
+
+/// A guard with the side on which the mode lies, where `parameters` are at hand.
+fn free_side(&(number, side_of): &(usize, GuardSide)) -> TokenStream {
+    let (number, side) = (paths::count(number), paths::support("Side"));
+    match side_of {
+        GuardSide::Fixed(one) => {
+            let sign = sign(one);
+            quote!((#number, #side::#sign))
+        }
+        GuardSide::Free(parameter) => {
+            let (parameter, bound) = (paths::count(parameter), paths::support("Scalar"));
+            quote!((#number, #side::of(#bound::to_f64(parameters[#parameter]) - 0.5)))
+        }
     }
 }
 

@@ -144,7 +144,7 @@ fn default_text(emission: &Emission<'_>, elements: &[Parameter]) -> String {
     }
 }
 
-fn default_value(default: &DefaultValue) -> TokenStream {
+pub(super) fn default_value(default: &DefaultValue) -> TokenStream {
     let DefaultValue {
         lowered,
         operations,

@@ -54,8 +54,8 @@ pub(super) fn method(
     })
 }
 
-/// The documentation and the name of a method of the dynamics; the guards have methods of their
-/// own, which choose among functions.
+/// The documentation and the name of a method of the dynamics; guards and events
+/// have methods of their own, which choose among functions.
 fn names(quantity: Quantity) -> Option<(&'static str, &'static str)> {
     Some(match quantity {
         Quantity::VectorField => ("f(t, x)", "vector_field"),
@@ -68,7 +68,8 @@ fn names(quantity: Quantity) -> Option<(&'static str, &'static str)> {
         Quantity::TimeDerivative => ("∂f^τ/∂t₁", "time_derivative"),
         Quantity::SwitchingFunction(_)
         | Quantity::SwitchingSize(_)
-        | Quantity::SwitchingGradient(_) => return None,
+        | Quantity::SwitchingGradient(_)
+        | Quantity::Event(_) => return None,
     })
 }
 

@@ -3,6 +3,7 @@
 mod code;
 mod dynamics;
 mod emission;
+mod events;
 mod expression;
 mod function;
 mod guards;

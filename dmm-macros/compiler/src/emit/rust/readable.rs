@@ -59,6 +59,7 @@ pub(super) fn plain(name: &Name) -> String {
         .filter_map(|letter| match letter {
             '₀' => Some('0'),
             '₁' => Some('1'),
+            ' ' => Some('_'),
             '[' | ']' | '⟨' | '⟩' => None,
             letter => Some(letter),
         })

@@ -6,8 +6,9 @@ use quote::quote;
 use super::super::listing;
 use super::dynamics::dynamics;
 use super::emission::Emission;
+use super::events::events;
 use super::guards::{guards, sign};
-use super::item::{default, item, regions};
+use super::item::{default, default_value, item, regions};
 use super::paths;
 use crate::model::Parameter;
 use crate::program::{Metadata, Program};
@@ -25,6 +26,10 @@ pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
     let guards = (emission.guards.as_ref())
         .zip(program.guards.as_ref())
         .map(|(name, program)| guards(&emission, name, program));
+    let events = program
+        .events
+        .as_ref()
+        .map(|program| events(&emission, program));
     let dynamics_of = (program.dynamics.iter().enumerate())
         .map(|(region, program)| dynamics(&emission, region, program));
     quote! {
@@ -45,6 +50,7 @@ pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
             #metadata
             #implementation
             #guards
+            #events
             #(#dynamics_of)*
         };
     }
@@ -75,25 +81,32 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
     let fields: Vec<TokenStream> = model.parameters.iter().map(field).collect();
     let indices: Vec<_> = (0..fields.len()).map(paths::count).collect();
     let count = paths::count(fields.len());
+    let all = paths::count(emission.program.parameters.len());
+    let constants = Constants::of(emission);
+    let (of_mode, parameters_of_mode) = (&constants.region, &constants.parameters);
+    let mode = &constants.mode;
+    let (of_constants, some_region) = (&constants.methods, &constants.some);
     let (dynamics_of, scalar) = (&emission.dynamics_of, &emission.scalar);
     quote! {
         #[automatically_derived]
         impl #system<#states> for #name {
-            type Region = #region;
+            type Region = #mode;
             #[inline(always)]
             fn metadata(&self) -> &'static #of_system { &METADATA }
             fn declaration(&self) -> &str { #declaration }
             fn listing(&self) -> &str { #listing }
             #[inline(always)]
-            fn region(&self, index: usize) -> ::core::option::Option<#region> {
-                match index {
-                    #(#regions => ::core::option::Option::Some(#region::#variants),)*
-                    _ => ::core::option::Option::None,
-                }
+            fn region(&self, index: usize) -> ::core::option::Option<#mode> {
+                let region = match index {
+                    #(#regions => #region::#variants,)*
+                    _ => return ::core::option::Option::None,
+                };
+                ::core::option::Option::Some(#some_region)
             }
             #[inline(always)]
-            fn index(region: #region) -> usize { region as usize }
+            fn index(region: #mode) -> usize { region #of_mode as usize }
             #across
+            #of_constants
             fn parameters(&self) -> ::std::vec::Vec<f64> { ::std::vec![#(self.#fields),*] }
             fn parameter_mut(&mut self, index: usize) -> ::core::option::Option<&mut f64> {
                 match index {
@@ -102,22 +115,105 @@ fn implementation(emission: &Emission<'_>, listing: &str) -> TokenStream {
                 }
             }
             #[inline]
-            fn visit<V: #visitor<#states>>(&self, region: #region, visitor: V) -> V::Output {
+            fn visit<V: #visitor<#states>>(&self, region: #mode, visitor: V) -> V::Output {
                 let parameters: [f64; #count] = [#(self.#fields),*];
                 self.visit_with::<f64, V>(region, |index| parameters[index], visitor)
             }
             #[inline(always)]
             fn visit_with<#scalar: #bound, V: #visitor<#states, #scalar>>(
                 &self,
-                region: #region,
+                region: #mode,
                 parameter: impl ::core::ops::Fn(usize) -> #scalar,
                 visitor: V,
             ) -> V::Output {
-                let parameters: [#scalar; #count] = [#(parameter(#indices)),*];
-                match region {
+                let parameters: [#scalar; #all] =
+                    [#(parameter(#indices),)* #(#scalar::from_f64(#parameters_of_mode)),*];
+                match region #of_mode {
                     #(#region::#variants => visitor.visit(&#dynamics_of::<#scalar>::new(&parameters)),)*
                 }
             }
+        }
+    }
+}
+
+/// What is said of the constants of a mode, of systems that have such.
+struct Constants {
+    /// The type of a mode.
+    mode: TokenStream,
+    /// What a mode is called `region` by.
+    region: TokenStream,
+    /// The constants of the mode `region`.
+    parameters: Vec<TokenStream>,
+    /// The mode of `region` with initial constants.
+    some: TokenStream,
+    methods: TokenStream,
+}
+
+impl Constants {
+    fn of(emission: &Emission<'_>) -> Self {
+        let (program, region) = (emission.program, &emission.region);
+        let metadata = &program.metadata;
+        let (discrete, free) = (metadata.discrete.len(), metadata.free.len());
+        if discrete + free == 0 {
+            return Self {
+                mode: quote!(#region),
+                region: TokenStream::new(),
+                parameters: Vec::new(),
+                some: quote!(region),
+                methods: TokenStream::new(),
+            };
+        }
+        let constants = (0..discrete + free).map(paths::count);
+        let [mode, vector, side] = ["Mode", "Vector", "Side"].map(paths::support);
+        let initial = program.initial.iter().map(default_value);
+        let states = paths::count(program.states.len());
+        let [discrete, free] = [discrete, free].map(paths::count);
+        let fields = program.scheme.model.parameters.iter().map(field);
+        let parameters: Vec<TokenStream> = constants
+            .map(|index| quote!(region.constant(#index)))
+            .collect();
+        let all = quote!(#(#parameters),*);
+        let jump = program.events.as_ref().map(|_| {
+            quote! {
+                fn jump(
+                    &self,
+                    region: Self::Region,
+                    event: usize,
+                    t: f64,
+                    state: &#vector<f64, #states>,
+                ) -> ::core::option::Option<(#vector<f64, #states>, Self::Region)> {
+                    let parameters = [#(self.#fields,)* #(#parameters),*];
+                    let (state, discrete) = Events::<f64>::new(&parameters).after(event, t, state)?;
+                    ::core::option::Option::Some((state, #mode { discrete, ..region }))
+                }
+            }
+        });
+        Self {
+            mode: quote!(#mode<#region, #discrete, #free>),
+            region: quote!(.region),
+            parameters,
+            some: quote!(#mode::new(region, [#(#initial),*])),
+            methods: quote! {
+                fn region_on(
+                    &self, sides: &[#side], like: ::core::option::Option<Self::Region>
+                ) -> ::core::option::Option<Self::Region> {
+                    let region = self.region(METADATA.region_on(sides)?)?;
+                    ::core::option::Option::Some(region.on(&METADATA, sides, like))
+                }
+                fn side(
+                    &self, region: Self::Region, interface: usize
+                ) -> ::core::option::Option<#side> {
+                    let index = region.region as usize;
+                    region.side(&METADATA, index, interface)
+                }
+                fn constants(region: Self::Region) -> ::std::vec::Vec<f64> {
+                    ::std::vec![#all]
+                }
+                fn with_constant(region: Self::Region, index: usize, value: f64) -> Self::Region {
+                    region.with_constant(index, value)
+                }
+                #jump
+            },
         }
     }
 }
@@ -130,7 +226,8 @@ fn across(emission: &Emission<'_>) -> Option<TokenStream> {
         regions,
         ..
     } = &emission.program.metadata;
-    if interfaces.is_empty() {
+    let is_free = !emission.program.metadata.free.is_empty();
+    if interfaces.is_empty() || is_free || !emission.program.metadata.discrete.is_empty() {
         return None;
     }
     let (region, variants, side) = (&emission.region, &emission.variants, paths::support("Side"));
@@ -168,11 +265,31 @@ fn metadata(metadata: &Metadata) -> TokenStream {
         states,
         parameters,
         interfaces,
+        discrete,
+        free,
+        events,
         conditions,
         regions,
     } = metadata;
-    let [of_system, of_region, condition, side] =
-        ["Metadata", "RegionMetadata", "Condition", "Side"].map(paths::support);
+    let [of_system, of_region, condition, side, event] =
+        ["Metadata", "RegionMetadata", "Condition", "Side", "Event"].map(paths::support);
+    let option = |index: Option<usize>| match index.map(paths::count) {
+        Some(index) => quote!(::core::option::Option::Some(#index)),
+        None => quote!(::core::option::Option::None),
+    };
+    let free = free.iter().copied().map(paths::count);
+    let events = events.iter().map(|one| {
+        let (rises, falls) = (one.rises, one.falls);
+        let interface = paths::count(one.interface);
+        let (region, clock) = (option(one.region), option(one.clock));
+        quote!(#event {
+            interface: #interface,
+            rises: #rises,
+            falls: #falls,
+            region: #region,
+            clock: #clock,
+        })
+    });
     let conditions = conditions.iter().map(|one| {
         let region = paths::count(one.region);
         let (text, quantities, keeps_sign) = (&one.condition, &one.quantities, one.keeps_sign);
@@ -189,13 +306,7 @@ fn metadata(metadata: &Metadata) -> TokenStream {
             Some(sign) => quote!(::core::option::Option::Some(#side::#sign)),
             None => quote!(::core::option::Option::None),
         });
-        let neighbours = one.neighbours.iter().map(|one| match one {
-            Some(index) => {
-                let index = paths::count(*index);
-                quote!(::core::option::Option::Some(#index))
-            }
-            None => quote!(::core::option::Option::None),
-        });
+        let neighbours = one.neighbours.iter().copied().map(option);
         quote!(#of_region {
             name: #name,
             conserved: &[#(#conserved),*],
@@ -209,6 +320,9 @@ fn metadata(metadata: &Metadata) -> TokenStream {
             states: &[#(#states),*],
             parameters: &[#(#parameters),*],
             interfaces: &[#(#interfaces),*],
+            discrete: &[#(#discrete),*],
+            free: &[#(#free),*],
+            events: &[#(#events),*],
             conditions: &[#(#conditions),*],
             regions: &[#(#regions),*],
         };

@@ -2,6 +2,7 @@
 
 mod assumed;
 mod domains;
+mod events;
 
 use proc_macro2::TokenStream;
 

@@ -1,5 +1,6 @@
 //! What parses, how it is printed, and what is said about what does not parse.
 
+mod events;
 mod mistakes;
 mod mutations;
 mod nesting;

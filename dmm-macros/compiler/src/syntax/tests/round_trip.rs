@@ -19,6 +19,21 @@ pub(crate) system Chain {
     fn V(r, i) = r^2 / 2 + i * m[i];
     let total = sum(i in 0..n, p[i]);
     interface wall = q[0] - x;
+    discrete hits = 0;
+    /// Of the wall.
+    on wall falling where p[0] < 0 and hits < 3 {
+        p[0] = -k * p[0];
+        hits = hits + 1;
+        conserves H, energy;
+    }
+    on wall {
+    }
+    every 2 * k {
+        x = 0;
+    }
+    at 3 {
+        x = 1;
+    }
     hamiltonian H = sum(i in 0..n - 1, p[i]^2 / (2 * m[i]) + V(q[i + 1] - q[i], i)) in (q, p), (x, y), (q[0], p[1]);
     der(x) = -y^-2;
     region above where wall > 0 {

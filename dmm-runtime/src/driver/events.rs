@@ -1,0 +1,156 @@
+//! What happens in an instant: the jumps at a point of interfaces, and periodic events.
+
+use super::reading::Reading;
+use crate::arithmetic::State;
+use crate::contract::{Event, Side, System, Vector};
+use crate::error::{Error, ErrorKind, invalid, number};
+
+/// What events have made of a state and a mode.
+pub(super) struct Happened<R, const N: usize> {
+    pub(super) state: State<N>,
+    /// With the sides of before.
+    pub(super) mode: R,
+}
+
+/// What the events make of a point on the interfaces `on`, one of which was `met` with a rate; all
+/// of it from the values before. Nothing if none happens.
+pub(super) fn happens<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    from: Sys::Region,
+    met: (usize, f64),
+    on: &[usize],
+    t: f64,
+    state: &State<N>,
+) -> Result<Option<Happened<Sys::Region, N>>, Error> {
+    let x = &state.x;
+    let happens = |event: &Event| {
+        let is_here = event.region.is_none_or(|region| region == Sys::index(from));
+        is_here && on.contains(&event.interface) && is_crossed(system, from, met, event, t, x)
+    };
+    let mut happened: Option<Happened<Sys::Region, N>> = None;
+    let mut given = Given::default();
+    for (index, event) in system.metadata().events.iter().enumerate() {
+        if !happens(event) {
+            continue;
+        }
+        let Some((after, mode)) = system.jump(from, index, t, x) else {
+            continue;
+        };
+        let all = happened.get_or_insert(Happened {
+            state: *state,
+            mode: from,
+        });
+        for i in 0..N {
+            if after[i] == x[i] {
+                continue;
+            }
+            if !given.state(i, after[i]) {
+                return Err(conflict(system, from, system.metadata().states[i], t, x));
+            }
+            // what changes its sign alone keeps its last digits
+            all.state.remainder[i] = match after[i] == -x[i] {
+                true => -state.remainder[i],
+                false => 0.0,
+            };
+            all.state.x[i] = after[i];
+        }
+        let pairs = Sys::constants(mode).into_iter().zip(Sys::constants(from));
+        for (i, (after, before)) in pairs.enumerate() {
+            if after == before {
+                continue;
+            }
+            if !given.discrete(i, after) {
+                return Err(conflict(system, from, system.metadata().discrete[i], t, x));
+            }
+            all.mode = Sys::with_constant(all.mode, i, after);
+        }
+    }
+    Ok(happened)
+}
+
+/// The values that events have given.
+#[derive(Default)]
+struct Given {
+    states: Vec<(usize, f64)>,
+    discrete: Vec<(usize, f64)>,
+}
+
+impl Given {
+    /// Whether no other value was given before.
+    fn state(&mut self, index: usize, value: f64) -> bool {
+        give(&mut self.states, index, value)
+    }
+
+    /// The same of a discrete state.
+    fn discrete(&mut self, index: usize, value: f64) -> bool {
+        give(&mut self.discrete, index, value)
+    }
+}
+
+fn give(given: &mut Vec<(usize, f64)>, index: usize, value: f64) -> bool {
+    let earlier = given.iter().find(|(of, _)| *of == index);
+    let agrees = earlier.is_none_or(|&(_, earlier)| earlier == value);
+    given.push((index, value));
+    agrees
+}
+
+/// Two events give one state two values.
+#[cold]
+fn conflict<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    from: Sys::Region,
+    state: &'static str,
+    t: f64,
+    x: &Vector<f64, N>,
+) -> Error {
+    let kind = ErrorKind::Conflict { state };
+    kind.at(t, x.as_slice(), system.of_region(from).name)
+}
+
+/// Whether the solution crosses the interface of an event the way that it asks for.
+fn is_crossed<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    from: Sys::Region,
+    (interface, rate): (usize, f64),
+    event: &Event,
+    t: f64,
+    x: &Vector<f64, N>,
+) -> bool {
+    let rate = match event.interface == interface {
+        true => rate,
+        false => Reading::new(system, from, event.interface, t, x).rate,
+    };
+    match system.side(from, event.interface) {
+        Some(Side::Positive) => event.falls && rate < 0.0,
+        Some(Side::Negative) => event.rises && rate > 0.0,
+        None => false,
+    }
+}
+
+/// A mode at the start of a run: its periodic events count from the initial time.
+pub(super) fn with_clocks<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    mut mode: Sys::Region,
+    t0: f64,
+    x0: &Vector<f64, N>,
+) -> Result<Sys::Region, Error> {
+    for event in system.metadata().events {
+        let Some(clock) = event.clock else { continue };
+        // g = t − n T
+        let g = |count: f64| {
+            let mode = Sys::with_constant(mode, clock, count);
+            Reading::new(system, mode, event.interface, t0, x0).value
+        };
+        let period = g(0.0) - g(1.0);
+        let positive = period > 0.0 && period.is_finite();
+        if !positive {
+            invalid("time between events", number(period), "must be positive")?;
+        }
+        let mut count = (t0 / period).floor();
+        while g(count) >= 0.0 {
+            count += 1.0;
+        }
+        mode = Sys::with_constant(mode, clock, count);
+    }
+    Ok(mode)
+}
