@@ -96,6 +96,7 @@ mod ensemble;
 mod error;
 mod events;
 mod expansion;
+mod language;
 mod level;
 mod method;
 #[cfg(feature = "model")]
@@ -113,7 +114,6 @@ pub use contract::{
     Condition, Dynamics, DynamicsVisitor, Guards, Metadata, NoGuards, RegionMetadata, Side,
     Solvability, System,
 };
-pub use dmm_macros::pws;
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};
 pub use ensemble::{Ensemble, Member, Outcome};
 pub use error::{Error, ErrorKind, Place};

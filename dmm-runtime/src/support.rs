@@ -6,3 +6,4 @@ pub use crate::contract::{
     Side, Solvability, System,
 };
 pub use crate::series;
+pub use dmm_macros::pws;

@@ -273,7 +273,8 @@ impl<'a> Block<'a> {
     /// A readable name for a shared node.
     fn name(&mut self, id: Id) -> Ident {
         match suggestion(self.lowered, id) {
-            Some(wish) => self.names.take(&wish),
+            // in lower case, which no constant around the declaration is
+            Some(wish) => self.names.take(&wish.to_lowercase()),
             None => self.names.number("u"),
         }
     }

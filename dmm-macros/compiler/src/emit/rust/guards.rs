@@ -43,9 +43,10 @@ pub(super) fn guards(emission: &Emission<'_>, name: &Ident, program: &Guards) ->
         &values,
     );
     let implementation = implementation(emission, name, &scope, program);
+    let derived = paths::derive(&["Clone", "Copy", "Debug"]);
     quote! {
         /// The `COUNT` guards of region number `REGION`: its interfaces, and conditions of proofs.
-        #[derive(Clone, Copy, Debug)]
+        #derived
         struct #name<#scalar, const REGION: usize, const COUNT: usize> { #orientation #fields }
         #constructor
         #implementation
@@ -79,7 +80,7 @@ fn implementation(
             #constants
             type Each<T: ::core::marker::Copy> = [T; COUNT];
             #[inline]
-            fn each<T: ::core::marker::Copy>(&self, value: impl FnMut(usize) -> T) -> [T; COUNT] {
+            fn each<T: ::core::marker::Copy>(&self, value: impl ::core::ops::FnMut(usize) -> T) -> [T; COUNT] {
                 ::core::array::from_fn(value)
             }
             type Over<#other: #bound> = #name<#other, REGION, COUNT>;

@@ -13,9 +13,9 @@ use crate::model::Parameter;
 use crate::program::{Metadata, Program};
 
 /// Everything that `pws!` emits for a system.
-pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
+pub(in crate::emit) fn system(program: &Program<'_>, runtime: &TokenStream) -> TokenStream {
     let emission = Emission::new(program);
-    let import = paths::import();
+    let import = paths::import(runtime);
     let listing = listing::listing(program.scheme);
     let item = item(&emission, &listing);
     let regions = regions(&emission);
