@@ -259,7 +259,11 @@ pub fn compile_with(input: TokenStream, runtime: &TokenStream) -> TokenStream {
     };
     let stub = stub::stub(&declaration, runtime);
     match derive(declaration, &mut diagnostics) {
-        Some(scheme) => emit::rust(&Program::new(&scheme), runtime),
+        Some(scheme) => {
+            let items = emit::rust(&Program::new(&scheme), runtime);
+            let warnings = diagnostics.warning_items();
+            quote!(#items #warnings)
+        }
         None => {
             let errors = diagnostics.into_compile_errors();
             quote!(#errors #stub)
@@ -270,9 +274,13 @@ pub fn compile_with(input: TokenStream, runtime: &TokenStream) -> TokenStream {
 /// The scheme of a declaration, or what is wrong with it.
 pub fn read(input: TokenStream) -> Result<Scheme, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    syntax::parse(input, &mut diagnostics)
-        .and_then(|declaration| derive(declaration, &mut diagnostics))
-        .ok_or(diagnostics)
+    read_with(input, &mut diagnostics).ok_or(diagnostics)
+}
+
+/// The scheme of a declaration, if nothing is wrong with it, and in `diagnostics` what is wrong
+/// with it and the warnings.
+pub fn read_with(input: TokenStream, diagnostics: &mut Diagnostics) -> Option<Scheme> {
+    syntax::parse(input, diagnostics).and_then(|declaration| derive(declaration, diagnostics))
 }
 
 /// The scheme of a declaration in readable mathematics, or the messages of all diagnostics.

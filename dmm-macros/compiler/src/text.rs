@@ -34,11 +34,19 @@ impl Message {
     }
 }
 
-/// The messages of diagnostics, by their places.
+/// The messages of the errors among diagnostics, by their places.
 pub fn messages(diagnostics: &Diagnostics) -> Vec<Message> {
     let errors = diagnostics.errors().iter();
     errors
         .map(|error| Message::new(error.span(), error))
+        .collect()
+}
+
+/// The warnings among diagnostics, by their places. Each begins with `warning: `.
+pub fn warnings(diagnostics: &Diagnostics) -> Vec<Message> {
+    let warnings = diagnostics.warnings();
+    warnings
+        .map(|warning| Message::new(warning.span(), format!("warning: {warning}")))
         .collect()
 }
 
