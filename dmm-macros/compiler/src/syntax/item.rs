@@ -7,9 +7,9 @@ use syn::{Attribute, Token, braced, token};
 use super::definition::{conserved, definitions, derivative, interface};
 use super::place::Place;
 use super::{ConservedItem, Definition, ForItem, Item, RegionItem};
-use super::{canonical, condition, documentation, formula, group, mistake, name, unknown};
+use super::{canonical, condition, documentation, formula, group, instead, mistake, name, unknown};
 use crate::diagnostics::catalogue::syntax::{
-    ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, NOT_YET, REGION,
+    ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, REGION, UNKNOWN_ITEM,
 };
 use crate::diagnostics::{Diagnostics, Extent};
 
@@ -114,9 +114,10 @@ fn behind_keyword(
         }),
         "assume" => Item::Conserved(assumed(input, attributes)?),
         "for" => Item::For(repeat(input, &attributes, place, diagnostics)?),
-        _ => {
-            let message = "state jumps (`on`) are not supported yet: a trajectory is continuous across an interface";
-            return Err(NOT_YET.error(keyword, message));
+        word => {
+            let (code, message) =
+                instead::not_yet(word).unwrap_or((UNKNOWN_ITEM, format!("unknown item `{word}`")));
+            return Err(code.error(keyword, message));
         }
     };
     Ok(vec![item])
@@ -177,6 +178,14 @@ fn region(
 fn no_block(input: ParseStream<'_>, ident: &Ident) -> syn::Error {
     if input.peek(Token![;]) || input.is_empty() {
         REGION.error(ident, "a region has a block `{ … }` with its `der` items")
+    } else if input.peek(Token![>]) || input.peek(Token![<]) {
+        let message = "a region has a name in front of its conditions: write `region name where wall > 0 { … }` with `interface wall = …;`";
+        REGION.error(ident, message)
+    } else if input.peek(Token![:]) || name::peek_word(input).is_some() {
+        let message = format!(
+            "a region says where it lies: write `region {ident} where wall > 0 {{ … }}` (or `< 0`) with `interface wall = …;`"
+        );
+        REGION.error(input.span(), message)
     } else {
         let message = "expected `where …` or the region's block `{ … }`";
         REGION.error(input.span(), message)

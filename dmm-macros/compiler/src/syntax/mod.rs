@@ -45,6 +45,7 @@ mod definition;
 mod expression;
 mod formula;
 mod group;
+mod instead;
 mod item;
 mod mistake;
 mod name;
@@ -160,6 +161,11 @@ fn system(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<
     let body;
     braced!(body in input);
     let items = item::items(&body, Place::System, diagnostics);
+    if input.peek(syn::Token![;]) && input.peek2(syn::parse::End) {
+        let message = "leave out the `;` behind the block of a system";
+        diagnostics.report(ONE_SYSTEM, input.span(), message);
+        name::skip_all(input);
+    }
     if !input.is_empty() {
         let message = "one `pws!` declares one system; write another `pws!` for the next";
         diagnostics.report(ONE_SYSTEM, input.span(), message);
