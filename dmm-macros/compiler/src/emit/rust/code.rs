@@ -202,16 +202,20 @@ impl<'a> Block<'a> {
                 };
                 (power, vec![a, b])
             }
-            Math::Call(Function::Exp, a) if let Some(factors) = self.lowered.secular(*a) => {
-                let (negative, p, q) = factors;
-                let (first, second) = (self.expressions[&p].at(Binding::Sign), of(&q));
-                let sign = negative.then(|| quote!(-));
-                let call = quote!(#scalar::exp_product(#sign #first, #second));
-                (call, vec![a])
-            }
             Math::Call(function, a) => {
-                let (method, argument) = (method(function.name()), of(a));
-                (quote!(#scalar::#method(#argument)), vec![a])
+                let is_exp = *function == Function::Exp;
+                let call = match self.lowered.secular(*a).filter(|_| is_exp) {
+                    Some((negative, p, q)) => {
+                        let (first, second) = (self.expressions[&p].at(Binding::Sign), of(&q));
+                        let sign = negative.then(|| quote!(-));
+                        quote!(#scalar::exp_product(#sign #first, #second))
+                    }
+                    None => {
+                        let (method, argument) = (method(function.name()), of(a));
+                        quote!(#scalar::#method(#argument))
+                    }
+                };
+                (call, vec![a])
             }
             Math::Pair(function, [a, b]) => {
                 let (method, first, second) = (method(function.name()), of(a), of(b));

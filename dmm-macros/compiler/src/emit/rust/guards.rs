@@ -185,18 +185,17 @@ struct Turns<'a> {
 impl Turns<'_> {
     /// The body of a function, turned with its condition.
     fn body(&self, scope: &Scope<'_>, function: &Function) -> TokenStream {
-        match (function.quantity, &function.results) {
-            (Quantity::SwitchingFunction(index), &Results::Scalar(root))
-                if let Some(sign) = self.sign(index) =>
-            {
-                scope.body(function, |block| {
-                    let value = block.value(root);
-                    quote!(#sign * (#value))
-                })
-            }
-            (Quantity::SwitchingGradient(index), Results::ScalarAndColumn(by_time, gradient))
-                if let Some(sign) = self.sign(index) =>
-            {
+        let (Quantity::SwitchingFunction(index) | Quantity::SwitchingGradient(index)) =
+            function.quantity
+        else {
+            return body(scope, function);
+        };
+        match (self.sign(index), &function.results) {
+            (Some(sign), &Results::Scalar(root)) => scope.body(function, |block| {
+                let value = block.value(root);
+                quote!(#sign * (#value))
+            }),
+            (Some(sign), Results::ScalarAndColumn(by_time, gradient)) => {
                 scope.body(function, |block| {
                     let by_time = block.value(*by_time);
                     let gradient = scope.vector(block, gradient);
