@@ -237,6 +237,33 @@
 /// (`HarmonicRegion::Above`; `Everywhere` without interfaces), and the traits that the runtime's
 /// integrators use. The derived mathematics is `System::listing`.
 ///
+/// It may be declared wherever an item may stand, also in a function, under whatever name the
+/// runtime has in `Cargo.toml`, and through a crate that re-exports the macro. Names around it
+/// change nothing.
+///
+/// # Messages
+///
+/// An error says what is wrong, on the formula or name that is, and what to write instead; its number
+/// is explained below. What is declared and never used is a warning. Stable Rust lets a macro warn
+/// in one way only, as if something deprecated were used, so that it begins with ``use of
+/// deprecated constant `_::PWS205` ``. A name that begins with `_` is meant to be unused, and
+/// `#[allow(deprecated)]` on the module around a declaration silences all of its warnings.
+///
+/// A declaration is made of Rust's tokens, which rustc reads before it calls the macro. It knows
+/// nothing of the language and has words of its own for what is no token:
+///
+/// | written | what rustc says | what to write |
+/// |---|---|---|
+/// | `x' = y` | ``prefix `x` is unknown`` (a letter in front of a quotation mark) | `der(x) = y` |
+/// | `V'(q)` | ``prefix `V` is unknown`` | a function of its own, `fn dV(q) = …`, or a `hamiltonian` |
+/// | `x²`, `x₀` | `unknown start of token: \u{b2}` | `x^2`, `x_0` |
+/// | `−x`, `2·x`, `√x`, `x ≥ 0` | `unknown start of token`, and which sign it looks like | `-x`, `2*x`, `sqrt(x)`, a region |
+/// | `# it's`, `% it's` | ``prefix `it` is unknown`` | `// it's` |
+/// | a bracket without its other one | `this file contains an unclosed delimiter`, `mismatched closing delimiter` | the other one |
+///
+/// Declarations in a text, which `Model::compile` and the program `pws` read, are told what to write
+/// for these as well.
+///
 #[doc = include_str!("../DIAGNOSTICS.md")]
 #[macro_export]
 macro_rules! pws {
