@@ -174,7 +174,7 @@ pub(super) fn no_operand(input: ParseStream<'_>) -> syn::Error {
     } else if input.peek(Lit) {
         (
             OPERAND,
-            "a formula is made of real numbers, and this is none",
+            "a formula is made of real numbers: write one instead of this",
         )
     } else if input.peek(Token![|]) || input.peek(Token![||]) {
         (

@@ -155,7 +155,9 @@ fn system(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<
     name::word(input)?;
     let name = name::declared_type(input, diagnostics)?;
     if !input.peek(token::Brace) {
-        let message = format!("expected `{{` after `system {name}`");
+        let message = format!(
+            "expected `{{` after `system {name}`: states and parameters are declared in its block"
+        );
         return Err(HEAD.error(input.span(), message));
     }
     let body;

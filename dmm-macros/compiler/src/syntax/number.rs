@@ -30,7 +30,7 @@ pub(super) fn exact(literal: &Lit) -> Result<Rational, (Code, String)> {
         Lit::Int(number) => (number.base10_digits(), number.suffix()),
         Lit::Float(number) => (number.base10_digits(), number.suffix()),
         _ => {
-            let message = "a formula is made of real numbers, and this is none".into();
+            let message = "a formula is made of real numbers: write one instead of this".into();
             return Err((OPERAND, message));
         }
     };

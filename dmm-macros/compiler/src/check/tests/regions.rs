@@ -156,7 +156,10 @@ fn with_patterns(patterns: &[&str]) -> Vec<String> {
     };
     let regions: Vec<String> = patterns.iter().enumerate().map(region).collect();
     let interfaces = "state x, y, z; interface p = x; interface q = y; interface r = z;";
-    messages(&format!("{interfaces} {}", regions.join(" ")))
+    let mut found = messages(&format!("{interfaces} {}", regions.join(" ")));
+    // some of these patterns need not have all of them
+    found.retain(|message| !message.starts_with("warning: "));
+    found
 }
 
 #[test]
