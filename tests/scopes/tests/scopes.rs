@@ -142,7 +142,13 @@ mod several {
 }
 
 /// Names that Rust's prelude has mean something else here, and emitted code does not care.
-#[allow(dead_code, non_camel_case_types, non_snake_case, unused_macros)]
+#[allow(
+    clippy::all,
+    dead_code,
+    non_camel_case_types,
+    non_snake_case,
+    unused_macros
+)]
 mod hostile {
     use ode::pws;
 
