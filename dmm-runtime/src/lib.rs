@@ -5,6 +5,41 @@
 //! the conservation and derives the scheme; this crate holds what does not depend on the
 //! system: the solve, the transitions, the levels of ψ, output.
 //!
+//! ```
+//! use dmm_runtime::{Best, Integrator, System, pws};
+//!
+//! pws! {
+//!     /// A mass on a spring that is k times as stiff where x < 0.
+//!     pub system Spring {
+//!         state x, v;
+//!         param k = 3;
+//!         interface middle = x;
+//!         der(x) = v;
+//!         region right where middle > 0 {
+//!             der(v) = -x;
+//!             conserved energy = (v^2 + x^2) / 2;
+//!         }
+//!         region left where middle < 0 {
+//!             der(v) = -k * x;
+//!             conserved energy = (v^2 + k * x^2) / 2;
+//!         }
+//!     }
+//! }
+//!
+//! let spring = Spring::default();
+//! let solution = Integrator::new(&spring, Best::tolerance(1e-12))
+//!     .initial(0.0, [1.0, 0.0])
+//!     .run_until(100.0)?;
+//! let first = &solution.transitions()[0];
+//! assert_eq!((first.from, first.to), (SpringRegion::Right, SpringRegion::Left));
+//! assert!((first.t - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+//!
+//! let end = solution.last().ok_or("no solution")?;
+//! let energy = spring.conserved(end.region, end.t, &end.x)[0];
+//! assert!((energy - 0.5).abs() < 1e-14);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! | to | use |
 //! |---|---|
 //! | declare a system | [`pws!`] |
@@ -96,6 +131,7 @@ mod ensemble;
 mod error;
 mod events;
 mod expansion;
+mod language;
 mod level;
 mod method;
 #[cfg(feature = "model")]
@@ -113,7 +149,6 @@ pub use contract::{
     Condition, Dynamics, DynamicsVisitor, Event, Guards, Metadata, Mode, NoGuards, RegionMetadata,
     Side, Solvability, System,
 };
-pub use dmm_macros::pws;
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};
 pub use ensemble::{Ensemble, Member, Outcome};
 pub use error::{Error, ErrorKind, Place};

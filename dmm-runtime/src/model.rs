@@ -4,6 +4,7 @@ use std::error::Error as StdError;
 use std::fmt;
 use std::sync::Arc;
 
+use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::emit;
 use dmm_compiler::program::Program;
 use dmm_compiler::text::{self, Message};
@@ -61,6 +62,7 @@ use crate::tape::{SystemCode, Tape};
 pub struct Model {
     code: Arc<SystemCode>,
     parameters: Vec<f64>,
+    warnings: Arc<[Message]>,
 }
 
 /// What is done with a model as a system of a size that is known at compile time.
@@ -101,14 +103,34 @@ impl Model {
                 text: "more than one system is declared".to_owned(),
             }));
         };
-        let scheme = dmm_compiler::read(first).map_err(|diagnostics| ModelError {
-            messages: text::messages(&diagnostics),
-        })?;
+        let mut diagnostics = Diagnostics::new();
+        let Some(scheme) = dmm_compiler::read_with(first, &mut diagnostics) else {
+            return Err(ModelError {
+                messages: text::messages(&diagnostics),
+            });
+        };
         let code = SystemCode::new(&Program::new(&scheme), emit::listing(&scheme));
         Ok(Self {
             parameters: code.defaults.clone(),
             code: Arc::new(code),
+            warnings: text::warnings(&diagnostics).into(),
         })
+    }
+
+    /// What is declared and has no effect: the line, the column and the text of every warning.
+    ///
+    /// ```
+    /// use dmm_runtime::Model;
+    ///
+    /// let model = Model::compile("system Ball { state x; param k = 1; der(x) = 1; }")?;
+    /// let (line, column, text) = model.warnings().next().ok_or("no warning")?;
+    /// assert_eq!((line, column), (1, 30));
+    /// assert!(text.starts_with("warning: the parameter `k` is never used"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn warnings(&self) -> impl Iterator<Item = (usize, usize, &str)> {
+        let warnings = self.warnings.iter();
+        warnings.map(|warning| (warning.line, warning.column, warning.text.as_str()))
     }
 
     /// Names, and where the regions lie. Names are kept as long as the program runs.

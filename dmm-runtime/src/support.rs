@@ -6,3 +6,4 @@ pub use crate::contract::{
     RegionMetadata, Side, Solvability, System, sides,
 };
 pub use crate::series;
+pub use dmm_macros::pws;

@@ -14,13 +14,24 @@ mod declarations;
 
 use std::error::Error;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use accuracy::{Errors, greatest, measure, scheme};
 
 /// Points a step size.
 const POINTS: usize = 10;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let path = std::env::args_os().nth(1).map(PathBuf::from);
     let path = path.unwrap_or_else(declarations::problems);
     println!(

@@ -20,6 +20,7 @@ mod declarations;
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use dmm_compiler::diagnostics::Diagnostics;
@@ -27,11 +28,22 @@ use dmm_compiler::program::optimise::Count;
 use dmm_compiler::program::{Function, Functions, Program, Quantity};
 use dmm_compiler::{check, emit, proofs, scheme, syntax};
 use proc_macro2::TokenStream;
+use quote::quote;
 
 /// Each declaration is compiled this often; the fastest run counts.
 const RUNS: usize = 5;
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let mut paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
     let own_problems = paths.is_empty();
     if own_problems {
@@ -200,7 +212,9 @@ fn measure(input: TokenStream) -> Result<Cost, String> {
     clock.lap(3);
     let program = scheme.as_ref().map(Program::new);
     clock.lap(4);
-    let tokens = program.as_ref().map(emit::rust);
+    let tokens = program
+        .as_ref()
+        .map(|program| emit::rust(program, &quote!(::dmm_runtime)));
     clock.lap(5);
     match (&scheme, &program, tokens) {
         (Some(scheme), Some(program), Some(_)) => Ok(Cost {

@@ -211,8 +211,9 @@
 //! use dmm_compiler::emit;
 //! use dmm_compiler::program::Program;
 //!
-//! let code = emit::rust(&Program::new(&scheme)).to_string();
-//! assert!(code.contains("pub a : f64"));
+//! let runtime = "::dmm_runtime".parse().unwrap();
+//! let code = emit::rust(&Program::new(&scheme), &runtime).to_string();
+//! assert!(code.contains("struct Elliptic"));
 //! assert!(code.contains("fn discrete_vector_field"));
 //! let listing = emit::listing(&scheme);
 //! assert!(listing.contains("F[y] = y₁ - y₀ - τ*(x₁^2 + x₁*x₀ + x₀^2 + a)"));
@@ -244,15 +245,25 @@ use scheme::Scheme;
 use syntax::Declaration;
 
 /// Compiles the declaration of a system into Rust items: the system's, or the diagnostics and
-/// a [`stub`] of it.
+/// a [`stub`] of it. They refer to the runtime as `::dmm_runtime`.
 pub fn compile(input: TokenStream) -> TokenStream {
+    compile_with(input, &quote!(::dmm_runtime))
+}
+
+/// The same as [`compile`] where the runtime has the path `runtime`: whatever a program calls it,
+/// and wherever it is re-exported.
+pub fn compile_with(input: TokenStream, runtime: &TokenStream) -> TokenStream {
     let mut diagnostics = Diagnostics::new();
     let Some(declaration) = syntax::parse(input, &mut diagnostics) else {
         return diagnostics.into_compile_errors();
     };
-    let stub = stub::stub(&declaration);
+    let stub = stub::stub(&declaration, runtime);
     match derive(declaration, &mut diagnostics) {
-        Some(scheme) => emit::rust(&Program::new(&scheme)),
+        Some(scheme) => {
+            let items = emit::rust(&Program::new(&scheme), runtime);
+            let warnings = diagnostics.warning_items();
+            quote!(#items #warnings)
+        }
         None => {
             let errors = diagnostics.into_compile_errors();
             quote!(#errors #stub)
@@ -263,9 +274,13 @@ pub fn compile(input: TokenStream) -> TokenStream {
 /// The scheme of a declaration, or what is wrong with it.
 pub fn read(input: TokenStream) -> Result<Scheme, Diagnostics> {
     let mut diagnostics = Diagnostics::new();
-    syntax::parse(input, &mut diagnostics)
-        .and_then(|declaration| derive(declaration, &mut diagnostics))
-        .ok_or(diagnostics)
+    read_with(input, &mut diagnostics).ok_or(diagnostics)
+}
+
+/// The scheme of a declaration, if nothing is wrong with it, and in `diagnostics` what is wrong
+/// with it and the warnings.
+pub fn read_with(input: TokenStream, diagnostics: &mut Diagnostics) -> Option<Scheme> {
+    syntax::parse(input, diagnostics).and_then(|declaration| derive(declaration, diagnostics))
 }
 
 /// The scheme of a declaration in readable mathematics, or the messages of all diagnostics.

@@ -22,7 +22,7 @@ const UNKNOWN_LENGTH: usize = 1024;
 /// The struct with its parameters, `Default`, the enumeration of the regions, and an
 /// `impl System` with the right number of states. There is none if the system's name is a
 /// keyword or a type of Rust, to which nothing else in a program can refer.
-pub fn stub(declaration: &Declaration) -> TokenStream {
+pub fn stub(declaration: &Declaration, runtime: &TokenStream) -> TokenStream {
     if !is_name_of_type(&declaration.name.to_string()) {
         return TokenStream::new();
     }
@@ -31,12 +31,12 @@ pub fn stub(declaration: &Declaration) -> TokenStream {
     let region = format_ident!("{}Region", name, span = name.span());
     let variants = variants(declaration);
     let item = item(declaration, &constants);
-    let implementation = implementation(name, &region, states(declaration, &constants));
+    let implementation = implementation(name, &region, states(declaration, &constants), runtime);
     quote! {
         #item
 
         #[allow(missing_docs, non_camel_case_types)]
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq, ::core::cmp::Eq, ::core::hash::Hash)]
         #visibility enum #region { #(#variants,)* }
 
         #implementation
@@ -51,18 +51,18 @@ fn item(declaration: &Declaration, constants: &Constants) -> TokenStream {
     for (parameter, length) in parameters(declaration, constants) {
         match length {
             Some(length) => {
-                fields.push(quote!(pub #parameter: [f64; #length]));
+                fields.push(quote!(pub #parameter: [::core::primitive::f64; #length]));
                 defaults.push(quote!(#parameter: [0.0; #length]));
             }
             None => {
-                fields.push(quote!(pub #parameter: f64));
+                fields.push(quote!(pub #parameter: ::core::primitive::f64));
                 defaults.push(quote!(#parameter: 0.0));
             }
         }
     }
     quote! {
         #[allow(missing_docs, non_snake_case, non_camel_case_types)]
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]
         #visibility struct #name { #(#fields,)* }
 
         impl ::core::default::Default for #name {
@@ -74,28 +74,36 @@ fn item(declaration: &Declaration, constants: &Constants) -> TokenStream {
 }
 
 /// `impl System<N>`, for the number of states if there is one, or else for all.
-fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenStream {
+fn implementation(
+    name: &Ident,
+    region: &Ident,
+    states: Option<usize>,
+    runtime: &TokenStream,
+) -> TokenStream {
     let (generics, count) = match states {
         Some(states) => (quote!(), quote!(#states)),
-        None => (quote!(<const STATES: usize>), quote!(STATES)),
+        None => (
+            quote!(<const STATES: ::core::primitive::usize>),
+            quote!(STATES),
+        ),
     };
     quote! {
-        impl #generics ::dmm_runtime::support::System<#count> for #name {
+        impl #generics #runtime::support::System<#count> for #name {
             type Region = #region;
-            fn metadata(&self) -> &'static ::dmm_runtime::support::Metadata {
+            fn metadata(&self) -> &'static #runtime::support::Metadata {
                 ::core::unreachable!("the declaration of this system has errors")
             }
-            fn declaration(&self) -> &str { "" }
-            fn listing(&self) -> &str { "" }
-            fn region(&self, _: usize) -> ::core::option::Option<#region> {
+            fn declaration(&self) -> &::core::primitive::str { "" }
+            fn listing(&self) -> &::core::primitive::str { "" }
+            fn region(&self, _: ::core::primitive::usize) -> ::core::option::Option<#region> {
                 ::core::option::Option::None
             }
-            fn index(_: #region) -> usize { 0 }
-            fn parameters(&self) -> ::std::vec::Vec<f64> { ::std::vec::Vec::new() }
-            fn parameter_mut(&mut self, _: usize) -> ::core::option::Option<&mut f64> {
+            fn index(_: #region) -> ::core::primitive::usize { 0 }
+            fn parameters(&self) -> ::std::vec::Vec<::core::primitive::f64> { ::std::vec::Vec::new() }
+            fn parameter_mut(&mut self, _: ::core::primitive::usize) -> ::core::option::Option<&mut ::core::primitive::f64> {
                 ::core::option::Option::None
             }
-            fn visit<Visitor: ::dmm_runtime::support::DynamicsVisitor<#count>>(
+            fn visit<Visitor: #runtime::support::DynamicsVisitor<#count>>(
                 &self,
                 _: #region,
                 _: Visitor,
@@ -103,12 +111,12 @@ fn implementation(name: &Ident, region: &Ident, states: Option<usize>) -> TokenS
                 ::core::unreachable!("the declaration of this system has errors")
             }
             fn visit_with<
-                Scalar: ::dmm_runtime::support::Scalar,
-                Visitor: ::dmm_runtime::support::DynamicsVisitor<#count, Scalar>,
+                Scalar: #runtime::support::Scalar,
+                Visitor: #runtime::support::DynamicsVisitor<#count, Scalar>,
             >(
                 &self,
                 _: #region,
-                _: impl ::core::ops::Fn(usize) -> Scalar,
+                _: impl ::core::ops::Fn(::core::primitive::usize) -> Scalar,
                 _: Visitor,
             ) -> Visitor::Output {
                 ::core::unreachable!("the declaration of this system has errors")
@@ -208,7 +216,8 @@ mod tests {
         let tokens: TokenStream = text.parse().expect("tokens");
         let mut diagnostics = Diagnostics::new();
         let declaration = syntax::parse(tokens, &mut diagnostics).expect("a head");
-        let file: syn::File = syn::parse2(stub(&declaration)).expect("Rust items");
+        let file: syn::File =
+            syn::parse2(stub(&declaration, &quote!(::dmm_runtime))).expect("Rust items");
         quote!(#file).to_string()
     }
 
@@ -219,7 +228,7 @@ mod tests {
             region far_left where g > 0 { } region far_left where g < 0 { }",
         );
         for part in [
-            "pub struct S { pub k : f64 , }",
+            "pub struct S { pub k : :: core :: primitive :: f64 , }",
             "pub enum SRegion { FarLeft , }",
             "System < 2usize > for S",
             "Self { k : 0.0 , }",
@@ -236,7 +245,7 @@ mod tests {
             region b where g < 0 { for i in 0..2 { param l = 1; } }",
         );
         for part in [
-            "pub struct S { pub k : f64 , pub m : [f64 ; 2usize] , pub l : f64 , }",
+            "pub struct S { pub k : :: core :: primitive :: f64 , pub m : [:: core :: primitive :: f64 ; 2usize] , pub l : :: core :: primitive :: f64 , }",
             "System < 2usize > for S",
         ] {
             assert!(text.contains(part), "{part} / {text}");
@@ -255,7 +264,7 @@ mod tests {
             let text = compiled(name);
             for part in [
                 "compile_error !".into(),
-                format!("struct {name} {{ pub k : f64 , }}"),
+                format!("struct {name} {{ pub k : :: core :: primitive :: f64 , }}"),
             ] {
                 assert!(text.contains(&part), "{part} / {text}");
             }
@@ -278,9 +287,15 @@ mod tests {
                 "const n = (2^3 + 7) % 10, m = n/5; state q[m];",
                 "System < 1usize >",
             ),
-            ("const n = 3; param m[n] = 1;", "pub m : [f64 ; 3usize]"),
+            (
+                "const n = 3; param m[n] = 1;",
+                "pub m : [:: core :: primitive :: f64 ; 3usize]",
+            ),
             ("param m[40] = 1; state x;", "m : [0.0 ; 40usize]"),
-            ("param m[2] = [1, 2, 3];", "pub m : [f64 ; 2usize]"),
+            (
+                "param m[2] = [1, 2, 3];",
+                "pub m : [:: core :: primitive :: f64 ; 2usize]",
+            ),
         ] {
             let text = stubbed(items);
             assert!(text.contains(part), "{part} / {text}");
@@ -290,22 +305,46 @@ mod tests {
     #[test]
     fn what_cannot_be_told_fits_whatever_the_program_does() {
         for (items, part) in [
-            ("state q[k];", "impl < const STATES : usize >"),
-            ("state q[0];", "impl < const STATES : usize >"),
-            ("state q[1/2];", "impl < const STATES : usize >"),
-            ("state q[1/0], x;", "impl < const STATES : usize >"),
-            ("state q[2^999], x;", "impl < const STATES : usize >"),
-            ("const n = n; state q[n];", "impl < const STATES : usize >"),
-            ("", "impl < const STATES : usize >"),
-            ("param m[k] = [1, 2, 3];", "pub m : [f64 ; 3usize]"),
-            ("param m[k] = 1;", "pub m : [f64 ; 1024usize]"),
+            (
+                "state q[k];",
+                "impl < const STATES : :: core :: primitive :: usize >",
+            ),
+            (
+                "state q[0];",
+                "impl < const STATES : :: core :: primitive :: usize >",
+            ),
+            (
+                "state q[1/2];",
+                "impl < const STATES : :: core :: primitive :: usize >",
+            ),
+            (
+                "state q[1/0], x;",
+                "impl < const STATES : :: core :: primitive :: usize >",
+            ),
+            (
+                "state q[2^999], x;",
+                "impl < const STATES : :: core :: primitive :: usize >",
+            ),
+            (
+                "const n = n; state q[n];",
+                "impl < const STATES : :: core :: primitive :: usize >",
+            ),
+            ("", "impl < const STATES : :: core :: primitive :: usize >"),
+            (
+                "param m[k] = [1, 2, 3];",
+                "pub m : [:: core :: primitive :: f64 ; 3usize]",
+            ),
+            (
+                "param m[k] = 1;",
+                "pub m : [:: core :: primitive :: f64 ; 1024usize]",
+            ),
             (
                 "param type = 1, sum = 2;",
-                "pub struct S { pub sum : f64 , }",
+                "pub struct S { pub sum : :: core :: primitive :: f64 , }",
             ),
             (
                 "param k = 1.0f64, m: f64 = 2;",
-                "pub struct S { pub k : f64 , pub m : f64 , }",
+                "pub struct S { pub k : :: core :: primitive :: f64 , pub m : :: core :: primitive :: f64 , }",
             ),
             (
                 "region a; region self where g > 0 { }",

@@ -1,5 +1,7 @@
 //! Declarations in a text: Rust with `pws!` in it, or a declaration alone.
 
+mod signs;
+
 use std::fmt;
 
 use proc_macro2::{Delimiter, LexError, Span, TokenStream, TokenTree};
@@ -34,11 +36,19 @@ impl Message {
     }
 }
 
-/// The messages of diagnostics, by their places.
+/// The messages of the errors among diagnostics, by their places.
 pub fn messages(diagnostics: &Diagnostics) -> Vec<Message> {
     let errors = diagnostics.errors().iter();
     errors
         .map(|error| Message::new(error.span(), error))
+        .collect()
+}
+
+/// The warnings among diagnostics, by their places. Each begins with `warning: `.
+pub fn warnings(diagnostics: &Diagnostics) -> Vec<Message> {
+    let warnings = diagnostics.warnings();
+    warnings
+        .map(|warning| Message::new(warning.span(), format!("warning: {warning}")))
         .collect()
 }
 
@@ -48,7 +58,11 @@ pub fn messages(diagnostics: &Diagnostics) -> Vec<Message> {
 /// A text that is not made of Rust's tokens, or declares no system.
 pub fn declarations(text: &str) -> Result<Vec<TokenStream>, Message> {
     let tokens: TokenStream = text.parse().map_err(|error: LexError| {
-        Message::new(error.span(), "this is not made of Rust's tokens")
+        let start = error.span().start();
+        let line = text.lines().nth(start.line - 1).unwrap_or_default();
+        let rest = line.char_indices().nth(start.column);
+        let rest = rest.and_then(|(place, _)| line.get(place..));
+        Message::new(error.span(), signs::reason(rest.unwrap_or_default()))
     })?;
     let mut found = Vec::new();
     blocks(tokens.clone(), &mut found);

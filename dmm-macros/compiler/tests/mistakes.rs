@@ -7,8 +7,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use dmm_compiler::compile;
-use dmm_compiler::diagnostics::catalogue;
+use dmm_compiler::diagnostics::{Diagnostics, catalogue};
+use dmm_compiler::{compile, read_with};
 use insta::assert_snapshot;
 use proc_macro2::{LineColumn, TokenStream, TokenTree};
 
@@ -19,8 +19,9 @@ struct Mistake {
     declaration: String,
 }
 
-/// An error with the place that it is shown at.
+/// An error or a warning with the place that it is shown at.
 struct Shown {
+    severity: &'static str,
     message: String,
     start: LineColumn,
     end: LineColumn,
@@ -69,6 +70,7 @@ fn errors(declaration: &str) -> Vec<Shown> {
                 let literal: syn::LitStr =
                     syn::parse2(group.stream()).expect("compile_error! has a text");
                 errors.push(Shown {
+                    severity: "error",
                     message: literal.value(),
                     start: start.start(),
                     end: group.span().end(),
@@ -80,9 +82,31 @@ fn errors(declaration: &str) -> Vec<Shown> {
     errors
 }
 
+/// The warnings, of which the tokens that the macro gives make rustc warn.
+fn warnings(declaration: &str) -> Vec<Shown> {
+    let tokens: TokenStream = declaration.parse().expect("the mistakes are tokens");
+    let mut diagnostics = Diagnostics::new();
+    read_with(tokens, &mut diagnostics);
+    let shown = |warning: &syn::Error| Shown {
+        severity: "warning",
+        message: warning.to_string(),
+        start: warning.span().start(),
+        end: warning.span().end(),
+    };
+    diagnostics.warnings().map(shown).collect()
+}
+
+/// Everything that is said about a declaration.
+fn messages(declaration: &str) -> Vec<Shown> {
+    let mut messages = errors(declaration);
+    messages.extend(warnings(declaration));
+    messages
+}
+
 /// The message above the line that it is about, underlined.
 fn render(declaration: &str, error: &Shown) -> String {
     let Shown {
+        severity,
         message,
         start,
         end,
@@ -97,7 +121,7 @@ fn render(declaration: &str, error: &Shown) -> String {
     let continued = if end.line == start.line { "" } else { "…" };
     let number = start.line;
     let indent = " ".repeat(start.column);
-    format!("error: {message}\n  {number:>3} | {line}\n      | {indent}{carets}{continued}\n")
+    format!("{severity}: {message}\n  {number:>3} | {line}\n      | {indent}{carets}{continued}\n")
 }
 
 #[test]
@@ -110,7 +134,7 @@ fn messages_say_what_to_do() {
             declaration,
         } = mistake;
         writeln!(text, "== {name}: {thought}\n").expect("text");
-        let errors = errors(&declaration);
+        let errors = messages(&declaration);
         if errors.is_empty() {
             text.push_str("compiles\n");
         }
@@ -138,14 +162,13 @@ fn a_mistake_has_one_message() {
         ("two indices", 2),
         ("index of a scalar", 4),
         ("length from a parameter", 2),
-        // the one hints at the other
-        ("name in Greek and Latin", 2),
+        ("rate as a field", 2),
     ];
     let mut wrong = String::new();
     for mistake in list() {
         let other = OTHERS.iter().find(|(name, _)| *name == mistake.name);
         let expected = other.map_or(1, |&(_, count)| count);
-        let errors = errors(&mistake.declaration);
+        let errors = messages(&mistake.declaration);
         if errors.len() != expected {
             writeln!(wrong, "{}: {} messages", mistake.name, errors.len()).expect("text");
             for error in errors {
@@ -160,7 +183,7 @@ fn a_mistake_has_one_message() {
 fn every_message_has_a_code() {
     let codes: Vec<String> = catalogue::all().iter().map(ToString::to_string).collect();
     for mistake in list() {
-        for error in errors(&mistake.declaration) {
+        for error in messages(&mistake.declaration) {
             let code = error.message.rsplit_once('[').map(|(_, code)| code);
             let code = code.and_then(|code| code.strip_suffix(']'));
             assert!(

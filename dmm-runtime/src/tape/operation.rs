@@ -66,10 +66,13 @@ impl Operation {
                 },
                 _ => with(Kind::Power, a, b),
             },
-            Math::Call(Function::Exp, a) if let Some((negative, p, q)) = lowered.secular(a) => {
-                with(Kind::ExpProduct(negative), p, q)
+            Math::Call(function, a) => {
+                let is_exp = function == Function::Exp;
+                match lowered.secular(a).filter(|_| is_exp) {
+                    Some((negative, p, q)) => with(Kind::ExpProduct(negative), p, q),
+                    None => with(Kind::Call(function), a, a),
+                }
             }
-            Math::Call(function, a) => with(Kind::Call(function), a, a),
             Math::Pair(function, [a, b]) => with(Kind::Pair(function), a, b),
         })
     }

@@ -72,6 +72,19 @@ fn mistakes_are_shown_where_they_are() {
 }
 
 #[test]
+fn what_is_not_used_is_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let unused = OSCILLATOR.replace("k = 1;", "k = 1, damping = 0;");
+    let path = file(folder.path(), "unused.pws", &unused);
+    let shown = path.to_str().unwrap();
+    let [text, warnings] = texts(pws(&["show", shown]), 0);
+    assert!(text.contains("what is known"), "{text}");
+    let expected = format!("{shown}:3:18: warning: the parameter `damping` is never used");
+    assert!(warnings.starts_with(&expected), "{warnings}");
+    assert_eq!(warnings.lines().count(), 1, "{warnings}");
+}
+
+#[test]
 fn files_that_declare_nothing_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (text, expected) in [("fn main() {}", "declares no system"), ("\n  )", ":2:3: ")] {

@@ -1,4 +1,4 @@
-use dmm_runtime::{Best, Integrator, pws};
+use dmm_runtime::{Best, Integrator, System, pws};
 
 pws! {
     /// An oscillator whose spring is three times stiffer below y = 0.
@@ -19,7 +19,7 @@ pws! {
     }
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+fn run() -> Result<(), Box<dyn std::error::Error>> {
     let oscillator = Oscillator {
         k_below: 3.0,
         ..Default::default()
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     let end = solution.last().ok_or("no solution")?;
-    let energy = (end.x[1].powi(2) + oscillator.k_above * end.x[0].powi(2)) / 2.0;
+    let energy = oscillator.conserved(end.region, end.t, &end.x)[0];
     println!(
         "t = {}: {} transitions, {:?}",
         end.t,
@@ -44,4 +44,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("energy = {energy:.14}");
     println!("x(3.7) = {:.6}", solution.at(3.7)?[0]);
     Ok(())
+}
+
+fn main() -> std::process::ExitCode {
+    match run() {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            std::process::ExitCode::FAILURE
+        }
+    }
 }

@@ -11,14 +11,6 @@ pws! {
 }
 
 pws! {
-    system NoRegion {
-        state x;
-        interface wall = x;
-        der(x) = 1;
-    }
-}
-
-pws! {
     system Overlap {
         state x;
         interface wall = x;

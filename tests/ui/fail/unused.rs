@@ -1,4 +1,7 @@
-//! What is declared is used.
+//! What is declared is used: if not, that is a warning, which is shown as such a one is of what is
+//! deprecated.
+
+#![deny(deprecated)]
 
 use dmm_runtime::pws;
 
@@ -16,6 +19,14 @@ pws! {
         region left where wall < 0 {
             der(x) = 1;
         }
+    }
+}
+
+pws! {
+    system NoRegion {
+        state x;
+        interface wall = x;
+        der(x) = 1;
     }
 }
 

@@ -43,7 +43,7 @@ fn main() {
     assert_eq!(regions, [HarmonicRegion::Above, HarmonicRegion::Below]);
     let [above, below] = [HarmonicRegion::Above, HarmonicRegion::Below];
     for (region, side, other) in [(above, Side::Positive, below), (below, Side::Negative, above)] {
-        assert_eq!(system.of_region(region).sides, [side]);
+        assert_eq!(system.of_region(region).sides, [Some(side)]);
         assert_eq!(system.side(region, 0), Some(side));
         assert_eq!(system.side(region, 1), None);
         assert_eq!(system.neighbour(region, 0), Some(other));

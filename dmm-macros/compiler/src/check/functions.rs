@@ -15,7 +15,7 @@ use super::number::{self, Problem};
 use super::{Allowed, Resolver, Value};
 use crate::algebra::{Function, Id};
 use crate::diagnostics::catalogue::check as codes;
-use crate::syntax::{Expression, FunctionItem};
+use crate::syntax::{Expression, ExpressionKind, FunctionItem, Operator};
 
 impl<'d> Resolver<'d> {
     /// `fn name(arguments) = formula`
@@ -39,9 +39,10 @@ impl<'d> Resolver<'d> {
         for argument in item.arguments.iter().rev() {
             let is_used = self.scope.names.pop_local();
             if is_right && !is_used && !is_meant_to_be_unused(argument) {
-                let message =
-                    format!("the argument `{argument}` of `{ident}` is never used; remove it");
-                self.report(codes::UNUSED, argument, message);
+                let message = format!(
+                    "the argument `{argument}` of `{ident}` is never used: remove it, or call it `_{argument}`"
+                );
+                self.warn(codes::UNUSED, argument, message);
             }
         }
         self.scope.names.leave_function();
@@ -64,13 +65,22 @@ impl<'d> Resolver<'d> {
         arguments: &'d [Expression],
         allowed: Allowed,
     ) -> Option<Value> {
-        let values: Vec<Option<Value>> = arguments
-            .iter()
-            .map(|argument| self.expression(argument, allowed))
-            .collect();
         let text = function.to_string();
-        let built_in = text.parse::<Function>().ok();
-        if let Some(known) = built_in.filter(|f| f.is_declarable()) {
+        let built_in = text.parse::<Function>().ok().filter(|f| f.is_declarable());
+        let is_known = built_in.is_some() || self.scope.names.get(&text).is_some();
+        let read = |resolver: &mut Self| -> Vec<Option<Value>> {
+            let arguments = arguments.iter();
+            arguments
+                .map(|argument| resolver.expression(argument, allowed))
+                .collect()
+        };
+        // nothing is said of what an unknown function is given: it may be meant for another one
+        let values = if is_known {
+            read(self)
+        } else {
+            self.quietly(read)
+        };
+        if let Some(known) = built_in {
             return self.built_in(formula, known, &values);
         }
         if self.callable(function, &text, arguments)? {
@@ -141,6 +151,12 @@ impl<'d> Resolver<'d> {
                 let message = format!("a state is written without its argument: `{text}`");
                 (codes::NOT_A_FUNCTION, message)
             }
+            Some((Kind::State, _)) if matches!(arguments, [argument] if is_earlier(argument)) => {
+                let message = format!(
+                    "there are no delays: a rate depends on the states at the same time, `{text}`"
+                );
+                (codes::NOT_A_FUNCTION, message)
+            }
             Some((kind, Meaning::Elements(_))) => {
                 let message = format!("`{text}` is a group of {kind}s: an element is `{text}[0]`");
                 (codes::NOT_A_FUNCTION, message)
@@ -157,7 +173,7 @@ impl<'d> Resolver<'d> {
                 if let Some(meant) = self.scope.names.closest(text, &[Kind::Function]) {
                     self.scope.names.mark_used(&meant);
                 }
-                advice(text, self.scope.names.functions())
+                advice(text, arguments, self.scope.names.functions())
             }
         };
         self.scope.names.mark_used(text);
@@ -219,6 +235,18 @@ impl<'d> Resolver<'d> {
         self.scope.names.leave_function();
         self.scope.calls_known.insert(key, value);
         value
+    }
+}
+
+/// `t - 1`
+fn is_earlier(expression: &Expression) -> bool {
+    match &expression.kind {
+        ExpressionKind::Binary {
+            operator: Operator::Subtract,
+            left,
+            ..
+        } => is_time(left),
+        _ => false,
     }
 }
 

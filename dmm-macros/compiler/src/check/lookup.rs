@@ -138,6 +138,9 @@ impl Resolver<'_> {
         let message = match text {
             "time" => "the time is `t`".into(),
             "PI" | "Pi" | "π" => "the number π is `pi`".into(),
+            "inf" | "Inf" | "infinity" | "oo" | "nan" | "NaN" | "NAN" => {
+                format!("`{text}` is not declared: every quantity is a finite number")
+            }
             "e" | "E" => format!("`{text}` is not declared; Euler's number is `exp(1)`"),
             _ if is_built_in(text) => {
                 let message = format!("`{text}` is a function: write `{text}(x)`");

@@ -115,7 +115,10 @@ impl<'d> Resolver<'d> {
             let message = format!(
                 "the loop variable `{variable}` is never used: every turn is the same; call it `_{variable}` if that is meant"
             );
-            self.report(codes::UNUSED, variable, message);
+            // a loop around this one comes here in each of its turns
+            if self.reporter.warned.insert(std::ptr::from_ref(variable)) {
+                self.warn(codes::UNUSED, variable, message);
+            }
         }
         turns
     }

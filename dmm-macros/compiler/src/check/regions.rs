@@ -61,7 +61,30 @@ impl<'d> Resolver<'d> {
                 regions.push(finished(attributes, &item.ident, sides, field, body));
             }
         }
+        self.drop_unused_interfaces(&mut regions);
         regions
+    }
+
+    /// Leaves out the interfaces that bound no region and have no event: nothing switches there.
+    fn drop_unused_interfaces(&mut self, regions: &mut [Region]) {
+        let interfaces = std::mem::take(&mut self.regions.interfaces);
+        for (index, interface) in interfaces.into_iter().enumerate() {
+            let number = self.regions.interfaces.len();
+            let sides = regions.iter_mut().flat_map(|region| &mut region.sides);
+            let mut is_used = false;
+            for side in sides.filter(|side| side.interface == index) {
+                is_used = true;
+                side.interface = number;
+            }
+            let events = self.regions.events.iter_mut();
+            for event in events.filter(|event| event.interface == index) {
+                is_used = true;
+                event.interface = number;
+            }
+            if is_used {
+                self.regions.interfaces.push(interface);
+            }
+        }
     }
 
     /// What stands outside of regions: it holds in every one of them.

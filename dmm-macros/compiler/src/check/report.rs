@@ -19,6 +19,8 @@ pub(super) struct Reporter<'d> {
     pub(super) diagnostics: &'d mut Diagnostics,
     /// What regions repeat of what they share, as far as it was reported.
     pub(super) repeated: BTreeSet<String>,
+    /// The loop variables of which was warned.
+    pub(super) warned: BTreeSet<*const Ident>,
     /// Whether what is reported is to be forgotten, because it was reported before.
     pub(super) is_quiet: bool,
 }
@@ -28,6 +30,7 @@ impl<'d> Reporter<'d> {
         Self {
             diagnostics,
             repeated: BTreeSet::new(),
+            warned: BTreeSet::new(),
             is_quiet: false,
         }
     }
@@ -45,6 +48,14 @@ impl Resolver<'_> {
                 self.reporter.diagnostics.report(code, call.extent, message);
             }
             None => self.reporter.diagnostics.report(code, place, message),
+        }
+    }
+
+    /// Warns, as [`report`](Self::report) reports an error.
+    pub(super) fn warn(&mut self, code: Code, place: impl Into<Extent>, message: impl Display) {
+        // what a call is written out to is no place to warn of: the function is, where it stands
+        if !self.reporter.is_quiet && self.scope.calls.is_empty() {
+            self.reporter.diagnostics.warn(code, place, message);
         }
     }
 
@@ -97,7 +108,7 @@ impl Resolver<'_> {
         self.report(codes::TOO_LONG, place.extent, message);
     }
 
-    /// What was declared and never used, as far as everything that could use it is there.
+    /// Warns of what was declared and never used, as far as everything that could use it is there.
     pub(super) fn unused(&mut self) {
         if !self.regions.lacks_region && !self.is_exhausted() {
             let unused = self.scope.names.unused();
@@ -107,8 +118,9 @@ impl Resolver<'_> {
 
     pub(super) fn report_unused(&mut self, unused: Vec<(Kind, Ident)>) {
         for (kind, ident) in unused {
-            let message = format!("the {kind} `{ident}` is never used; remove it");
-            self.report(codes::UNUSED, &ident, message);
+            let message =
+                format!("the {kind} `{ident}` is never used: remove it, or call it `_{ident}`");
+            self.warn(codes::UNUSED, &ident, message);
         }
     }
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use proc_macro2::Ident;
 
 use super::Resolver;
-use super::names::Kind;
+use super::names::{Kind, is_meant_to_be_unused};
 use crate::diagnostics::catalogue::check as codes;
 use crate::model::{Interface, Side, Sign};
 use crate::syntax::{Condition, Declaration, Item, RegionItem, Relation};
@@ -108,14 +108,13 @@ impl Resolver<'_> {
             return;
         }
         if items.is_empty() {
-            let Some(first) = interfaces.iter().find(|ident| !self.has_event(ident)) else {
-                return;
-            };
-            let message = format!(
-                "the interface `{first}` bounds no region: write `region … where {first} > 0 {{ … }}` and `region … where {first} < 0 {{ … }}`, with the `der` items in them"
-            );
-            self.report(codes::NO_REGION, *first, message);
-            self.regions.lacks_region = true;
+            interfaces
+                .iter()
+                .for_each(|interface| self.no_region(interface));
+            if self.regions.events.is_empty() {
+                // nothing switches there: the system is that without the interfaces
+                self.regions.interfaces.clear();
+            }
             return;
         }
         let read = items.iter().map(|item| Pattern::new(item, &interfaces));
@@ -125,6 +124,11 @@ impl Resolver<'_> {
         };
         if self.overlap(items, &patterns, &interfaces) {
             return;
+        }
+        for (index, interface) in interfaces.iter().enumerate() {
+            if patterns.iter().all(|pattern| pattern.get(index).is_none()) {
+                self.no_region(interface);
+            }
         }
         let all: Vec<&Pattern> = patterns.iter().collect();
         let mut missing = Vec::new();
@@ -152,6 +156,17 @@ impl Resolver<'_> {
         });
         let events = &self.regions.events;
         named.any(|(index, _)| events.iter().any(|event| event.interface == index))
+    }
+
+    /// Warns of an interface that bounds no region.
+    fn no_region(&mut self, interface: &Ident) {
+        if is_meant_to_be_unused(interface) || self.has_event(interface) {
+            return;
+        }
+        let message = format!(
+            "the interface `{interface}` bounds no region and has no event, so that nothing changes there: write `region … where {interface} > 0 {{ … }}` and `region … where {interface} < 0 {{ … }}`, with the `der` items in them"
+        );
+        self.warn(codes::NO_REGION, interface, message);
     }
 
     /// Whether patterns of two regions overlap, which is reported.

@@ -61,10 +61,19 @@ impl From<&Ident> for Extent {
     }
 }
 
-/// Errors found in one declaration, each on the tokens that it is about.
+/// Errors and warnings about one declaration, each on the tokens that it is about.
 #[derive(Debug, Default)]
 pub struct Diagnostics {
     errors: Vec<syn::Error>,
+    warnings: Vec<Warning>,
+}
+
+/// A remark on a declaration that compiles all the same.
+#[derive(Debug)]
+struct Warning {
+    code: Code,
+    place: Extent,
+    message: syn::Error,
 }
 
 impl Diagnostics {
@@ -83,7 +92,17 @@ impl Diagnostics {
         self.errors.push(error);
     }
 
-    /// Whether nothing was reported.
+    /// Remarks on the source at `place`, with which the declaration compiles.
+    pub fn warn(&mut self, code: Code, place: impl Into<Extent>, message: impl Display) {
+        let place = place.into();
+        self.warnings.push(Warning {
+            code,
+            place,
+            message: code.error(place, message),
+        });
+    }
+
+    /// Whether there is no error.
     pub fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }
@@ -98,7 +117,14 @@ impl Diagnostics {
         &self.errors
     }
 
-    /// The messages, in the order in which they were reported.
+    /// The warnings with their places, in the order in which they were found. There are none beside
+    /// errors, which may be the reason for them: what is not used may be missing where one is.
+    pub fn warnings(&self) -> impl Iterator<Item = &syn::Error> {
+        let warnings = self.warnings.iter().filter(|_| self.is_empty());
+        warnings.map(|warning| &warning.message)
+    }
+
+    /// The messages of the errors, in the order in which they were reported.
     pub fn messages(&self) -> Vec<String> {
         self.errors.iter().map(ToString::to_string).collect()
     }
@@ -109,6 +135,30 @@ impl Diagnostics {
             .into_iter()
             .map(syn::Error::into_compile_error)
             .collect()
+    }
+
+    /// Items of which rustc warns with the messages of the warnings, on their tokens.
+    ///
+    /// A macro cannot warn in stable Rust. What it can do is to use something deprecated, of which
+    /// rustc warns on the tokens that use it and with the note of its deprecation.
+    pub fn warning_items(&self) -> TokenStream {
+        self.warnings.iter().map(Warning::item).collect()
+    }
+}
+
+impl Warning {
+    fn item(&self) -> TokenStream {
+        let name = Ident::new(&self.code.to_string(), Span::call_site());
+        let mut used = name.clone();
+        used.set_span(self.place.start);
+        let note = self.message.to_string();
+        quote! {
+            const _: () = {
+                #[deprecated(note = #note)]
+                const #name: () = ();
+                #used
+            };
+        }
     }
 }
 

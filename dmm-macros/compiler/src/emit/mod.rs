@@ -2,8 +2,8 @@
 //! ([`listing()`], and with the feature `explore` as LaTeX).
 //!
 //! Nothing is derived or chosen here but how it is written. Emitted code uses the module
-//! `::dmm_runtime::support` and nothing else outside `core` and `std`; its locals are kept apart
-//! from whatever names a declaration uses.
+//! `support` of the runtime and nothing else outside `core` and `std`, by paths that no name around
+//! it changes; its locals are kept apart from whatever names a declaration uses.
 
 mod listing;
 mod rust;
@@ -13,9 +13,9 @@ use proc_macro2::TokenStream;
 use crate::program::Program;
 use crate::scheme::Scheme;
 
-/// The items that `pws!` expands to.
-pub fn rust(program: &Program<'_>) -> TokenStream {
-    rust::system(program)
+/// The items that `pws!` expands to, where `runtime` is the path of the crate `dmm-runtime`.
+pub fn rust(program: &Program<'_>, runtime: &TokenStream) -> TokenStream {
+    rust::system(program, runtime)
 }
 
 /// The scheme in readable mathematics, as text.

@@ -5,10 +5,9 @@ use syn::parse::ParseStream;
 use syn::{Attribute, Token, parenthesized, token};
 
 use super::{Definition, Derivative, Expression, Target};
-use super::{documentation, formula, mistake, name, target};
+use super::{documentation, formula, instead, mistake, name, target};
 use crate::diagnostics::catalogue::syntax::{
-    ASSUME, DERIVATIVE, EQUALS, FUNCTION, GROUP, NAME, NOT_YET, ONE_DEFINITION, SEMICOLON, TYPE,
-    UNEXPECTED,
+    ASSUME, DERIVATIVE, EQUALS, FUNCTION, GROUP, NAME, ONE_DEFINITION, SEMICOLON, TYPE, UNEXPECTED,
 };
 use crate::diagnostics::{Diagnostics, Extent};
 
@@ -68,13 +67,20 @@ pub(super) fn interface(
     let formula = defined(input, "interface", &ident)?;
     if input.peek(Token![,]) {
         input.parse::<Token![,]>()?;
-        return Err(if name::peek_is(input, "sliding") {
-            let message = "sliding is not supported yet: a trajectory crosses an interface or stops with an error";
-            NOT_YET.error(input.span(), message)
-        } else {
-            let message = "expected `;`: each interface has an `interface` item of its own";
-            ONE_DEFINITION.error(input.span(), message)
+        let word = name::peek_word(input).map(|word| word.to_string());
+        return Err(match word.as_deref().and_then(instead::not_yet) {
+            Some((code, message)) => code.error(input.span(), message),
+            None => {
+                let message = "expected `;`: each interface has an `interface` item of its own";
+                ONE_DEFINITION.error(input.span(), message)
+            }
         });
+    }
+    if mistake::at_comparison(input) {
+        let message = format!(
+            "an interface is where its formula is zero: end it here, `interface {ident} = {formula};`, and write `where {ident} > 0` in a region"
+        );
+        return Err(UNEXPECTED.error(input.span(), message));
     }
     after_formula(input, &formula, false)?;
     Ok(Definition {
@@ -127,6 +133,12 @@ pub(super) fn derivative(
         });
     }
     let target = derivative_of(input)?;
+    if mistake::at_operator(input) {
+        let message = format!(
+            "a rate stands alone on the left: solve the equation for it and write `der({target}) = …;`"
+        );
+        return Err(DERIVATIVE.error(input.span(), message));
+    }
     equals(input, &format!("der({target})"))?;
     let formula = formula::formula(input)?;
     after_formula(input, &formula, false)?;
@@ -174,18 +186,33 @@ pub(super) fn defined(
         return Err(GROUP.error(input.span(), message));
     }
     if input.peek(token::Paren) {
-        let message = format!("a function of arguments is written `fn {ident}(…) = …;`");
+        let message = if keyword == "let" || keyword == "const" {
+            format!("a function of arguments is written `fn {ident}(…) = …;`")
+        } else {
+            format!("what it depends on is seen from its formula: write `{keyword} {ident} = …;`")
+        };
         return Err(FUNCTION.error(ident, message));
     }
-    no_type(input, ident)?;
+    if mistake::at_operator(input) {
+        let message =
+            format!("its name stands in front of the formula: write `{keyword} name = …;`");
+        return Err(NAME.error(ident, message));
+    }
+    no_type(input, keyword, ident)?;
     equals(input, &format!("{keyword} {ident}"))?;
     formula::formula(input)
 }
 
-/// Refuses `: f64` behind a name.
-pub(super) fn no_type(input: ParseStream<'_>, ident: &Ident) -> syn::Result<()> {
+/// Refuses `: f64` behind the name that an item of `keyword` defines, and `: formula`.
+pub(super) fn no_type(input: ParseStream<'_>, keyword: &str, ident: &Ident) -> syn::Result<()> {
     if !input.peek(Token![:]) || input.peek2(Token![=]) {
         return Ok(());
+    }
+    let rest = input.fork();
+    name::skip_one(&rest);
+    if keyword != "state" && !rest.peek(token::Bracket) && !name::is_type(&rest) {
+        let message = format!("write `{keyword} {ident} = …;` with `=`");
+        return Err(EQUALS.error(input.span(), message));
     }
     let message = if input.peek2(token::Bracket) {
         format!("every quantity is real: a group has its length behind the name, `{ident}[3]`")
@@ -206,11 +233,7 @@ pub(super) fn equals(input: ParseStream<'_>, what: &str) -> syn::Result<()> {
         input.parse::<Token![=]>()?;
         return Ok(());
     }
-    let is_assignment = input.peek(Token![+=])
-        || input.peek(Token![-=])
-        || input.peek(Token![*=])
-        || input.peek(Token![/=]);
-    let message = if is_assignment {
+    let message = if mistake::at_assignment(input) {
         format!("nothing is added up: write the whole formula, `{what} = …;`")
     } else {
         format!("expected `=`, as in `{what} = …;`")
@@ -234,6 +257,11 @@ pub(super) fn comma(input: ParseStream<'_>, before: Extent, what: &str) -> syn::
     }
     Err(if input.is_empty() || name::at_item(input) {
         SEMICOLON.error(before, "a `;` is missing behind this")
+    } else if input.peek(Token![in]) {
+        TYPE.error(
+            input.span(),
+            "every quantity is real: leave out what begins with this `in`",
+        )
     } else {
         let message = format!("expected `,` and another {what}, or `;`");
         SEMICOLON.error(input.span(), message)
@@ -259,6 +287,9 @@ pub(super) fn after_formula(
         return Err(SEMICOLON.error(formula.extent, message));
     }
     if input.peek(Token![,]) {
+        let rest = input.fork();
+        name::skip_one(&rest);
+        mistake::refuse_decimal_comma(&rest, mistake::last_operand(formula))?;
         let message = "expected `;`: this item takes one definition";
         return Err(ONE_DEFINITION.error(input.span(), message));
     }

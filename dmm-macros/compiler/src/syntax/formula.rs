@@ -7,7 +7,7 @@ use syn::{Lit, Token, parenthesized, token};
 
 use super::expression::{Expression, ExpressionKind, Operator};
 use super::mistake::{self, SUM_FORM};
-use super::{Range, name, number};
+use super::{Range, instead, name, number};
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::syntax::{BRANCH, DEPTH, INDEX, PATH, RANGE, SUM};
 
@@ -146,10 +146,8 @@ fn literal(input: ParseStream<'_>) -> syn::Result<Expression> {
 /// What begins with the word `ident`.
 fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Expression> {
     let text = ident.to_string();
-    if text == "if" || text == "match" {
-        let advice =
-            "formulas have no branches: declare an `interface` and a `region` on each side of it";
-        return Err(BRANCH.error(ident, advice));
+    if text == "if" || text == "match" || text == "where" && input.peek2(token::Paren) {
+        return Err(BRANCH.error(ident, instead::NO_BRANCH));
     }
     if text != "der" && name::begins_item(input) {
         return Err(mistake::no_operand(input));

@@ -7,7 +7,7 @@ use syn::{Attribute, Token, bracketed, token};
 use super::definition::{after_formula, equals, joined, list, no_type};
 use super::{Defaults, Expression, Group, Item, ParameterItem};
 use super::{documentation, formula, mistake, name};
-use crate::diagnostics::catalogue::syntax::{DEFAULT, GROUP, INITIAL_VALUE};
+use crate::diagnostics::catalogue::syntax::{DEFAULT, GROUP, INITIAL_VALUE, NAME, TYPE};
 use crate::diagnostics::{Diagnostics, Extent};
 
 /// `x, q[3];`
@@ -18,10 +18,11 @@ pub(super) fn states(
 ) -> Vec<Group> {
     let mut states = Vec::new();
     list(input, "state", diagnostics, |diagnostics| {
-        let (state, place) = group(input, attributes, diagnostics)?;
+        let (state, place) = group(input, "state", attributes, diagnostics)?;
         let text = state.to_string();
         states.push(state);
-        if place.is_ok() && input.peek(Token![=]) {
+        let is_assigned = input.peek(Token![:]) && input.peek2(Token![=]);
+        if place.is_ok() && (input.peek(Token![=]) || is_assigned) {
             let message = format!(
                 "a state has no value here: the initial state is given to the integrator; write `state {text};`"
             );
@@ -41,7 +42,7 @@ pub(super) fn parameters(
     let mut parameters = Vec::new();
     list(input, "param", diagnostics, |diagnostics| {
         mistake::refuse_decimal_comma(input, last_default(&parameters))?;
-        let (mut group, place) = group(input, attributes, diagnostics)?;
+        let (mut group, place) = group(input, "param", attributes, diagnostics)?;
         let defaults = place.and_then(|place| defaults(input, &mut group, place));
         let (defaults, place) = match defaults {
             Ok((defaults, place)) => (defaults, Ok(place)),
@@ -72,21 +73,30 @@ fn last_default(parameters: &[Item]) -> Option<&Expression> {
 /// name.
 fn group(
     input: ParseStream<'_>,
+    keyword: &str,
     attributes: &[Attribute],
     diagnostics: &mut Diagnostics,
 ) -> syn::Result<(Group, syn::Result<Extent>)> {
     let attributes = joined(attributes, documentation(input, diagnostics)?);
+    if input.peek(token::Paren) || input.peek(token::Bracket) {
+        let message = format!("names stand without brackets: write `{keyword} x, y;`");
+        return Err(NAME.error(input.span(), message));
+    }
+    if name::is_type(input) {
+        let message = format!("every quantity is real: write `{keyword} x` without a type");
+        return Err(TYPE.error(input.span(), message));
+    }
     let ident = name::declared_or_reported(input, diagnostics)?;
     let mut group = Group {
         attributes,
         ident,
         length: None,
     };
-    let place = behind_name(input, &mut group);
+    let place = behind_name(input, keyword, &mut group);
     Ok((group, place))
 }
 
-fn behind_name(input: ParseStream<'_>, group: &mut Group) -> syn::Result<Extent> {
+fn behind_name(input: ParseStream<'_>, keyword: &str, group: &mut Group) -> syn::Result<Extent> {
     let ident = &group.ident;
     let mut place = Extent::from(ident);
     if input.peek(token::Bracket) {
@@ -95,11 +105,33 @@ fn behind_name(input: ParseStream<'_>, group: &mut Group) -> syn::Result<Extent>
         group.length = Some(formula);
     }
     if input.peek(token::Paren) {
-        let message = format!("a group of states or parameters is declared as `{ident}[3]`");
-        return Err(GROUP.error(input.span(), message));
+        return Err(parentheses(input, keyword, ident));
     }
-    no_type(input, ident)?;
+    no_type(input, keyword, ident)?;
     Ok(place)
+}
+
+/// The error on `(t)`, `(0) = 1` or `(3)` behind a name that is declared.
+fn parentheses(input: ParseStream<'_>, keyword: &str, ident: &Ident) -> syn::Error {
+    let rest = input.fork();
+    let is_of_time = (rest.parse::<proc_macro2::Group>())
+        .is_ok_and(|group| matches!(group.stream().to_string().as_str(), "t" | "time"));
+    let (code, message) = if is_of_time && keyword == "state" {
+        let message = format!("a state depends on the time in any case: write `state {ident};`");
+        (GROUP, message)
+    } else if is_of_time {
+        let message = format!("a parameter is constant: a formula of `t` is `let {ident} = …;`");
+        (DEFAULT, message)
+    } else if rest.peek(Token![=]) && keyword == "state" {
+        let message = format!(
+            "a state has no value here: the initial state is given to the integrator; write `state {ident};`"
+        );
+        (INITIAL_VALUE, message)
+    } else {
+        let message = format!("a group of states or parameters is declared as `{ident}[3]`");
+        (GROUP, message)
+    };
+    code.error(input.span(), message)
 }
 
 /// `[formula]` behind a name that is declared, with the place of its `]`.

@@ -173,6 +173,14 @@ fn region(
 fn no_block(input: ParseStream<'_>, ident: &Ident) -> syn::Error {
     if input.peek(Token![;]) || input.is_empty() {
         REGION.error(ident, "a region has a block `{ … }` with its `der` items")
+    } else if input.peek(Token![>]) || input.peek(Token![<]) {
+        let message = "a region has a name in front of its conditions: write `region name where wall > 0 { … }` with `interface wall = …;`";
+        REGION.error(ident, message)
+    } else if input.peek(Token![:]) || name::peek_word(input).is_some() {
+        let message = format!(
+            "a region says where it lies: write `region {ident} where wall > 0 {{ … }}` (or `< 0`) with `interface wall = …;`"
+        );
+        REGION.error(input.span(), message)
     } else {
         let message = "expected `where …` or the region's block `{ … }`";
         REGION.error(input.span(), message)

@@ -7,11 +7,11 @@ use syn::parse::ParseStream;
 use syn::{Lit, LitInt, Token, token};
 
 use super::{Expression, ExpressionKind, Operator};
-use super::{name, number};
+use super::{instead, name, number};
 use crate::algebra::Function;
 use crate::diagnostics::catalogue::syntax::{
-    BRANCH, COMMENT, EQUALS, GROUP, HAMILTONIAN, INDEX, METHOD, NUMBER, OPERAND, OPERATOR, POWER,
-    RANGE, SEMICOLON, TYPE, UNEXPECTED,
+    BRANCH, COMMENT, EQUALS, FUNCTION, GROUP, HAMILTONIAN, INDEX, METHOD, NUMBER, OPERAND,
+    OPERATOR, POWER, RANGE, SEMICOLON, TYPE, UNEXPECTED,
 };
 use crate::diagnostics::{Code, Extent};
 pub(super) use range::{SUM_FORM, inclusive, no_range, no_sum};
@@ -35,6 +35,10 @@ pub(super) fn refuse_method(input: ParseStream<'_>, receiver: &Expression) -> sy
     let dot: Token![.] = input.parse()?;
     let base = receiver.to_string();
     let Some(method) = name::peek_word(input) else {
+        if input.peek(Token![*]) || input.peek(Token![/]) || input.peek(Token![^]) {
+            let message = "a formula is made of numbers: write the operator without its point";
+            return Err(OPERATOR.error(dot.span, message));
+        }
         return Err(match input.parse::<Lit>() {
             Ok(Lit::Int(index)) if receiver.as_name().is_some() => {
                 let place = receiver.extent.to(Extent::from(dot.span));
@@ -60,6 +64,12 @@ fn about_method(method: &str, base: &str, receiver: &str) -> (Code, String) {
             );
             (BRANCH, message)
         }
+        "atan2" => {
+            let message = format!(
+                "`{method}` jumps: write `2*atan(y/(x + sqrt(x^2 + y^2)))`, which is the angle of (x, y) where it does not jump"
+            );
+            (METHOD, message)
+        }
         "step_by" | "rev" => {
             let message = "a range counts up by one: use a formula of the index, such as `q[2*i]`";
             (RANGE, message.into())
@@ -78,7 +88,20 @@ fn about_method(method: &str, base: &str, receiver: &str) -> (Code, String) {
                 .parse::<Function>()
                 .is_ok_and(Function::is_declarable) =>
         {
-            let message = format!("functions are not methods here: write `{method}({receiver})`");
+            const MODULES: &[&str] =
+                &["Math", "math", "np", "numpy", "cmath", "sp", "sympy", "jnp"];
+            let argument = if MODULES.contains(&receiver) {
+                "x"
+            } else {
+                receiver
+            };
+            let message = format!("functions are not methods here: write `{method}({argument})`");
+            (METHOD, message)
+        }
+        "dot" | "der" | "diff" => {
+            let message = format!(
+                "the rate of `{receiver}` is no part of a formula: name its own formula with `let` and use that"
+            );
             (METHOD, message)
         }
         _ if receiver == "self" => {
@@ -146,6 +169,13 @@ pub(super) fn no_operand(input: ParseStream<'_>) -> syn::Error {
             OPERAND,
             "a formula has no block: name parts of it with `let`",
         )
+    } else if is_closure(input) {
+        (FUNCTION, "a function is declared as `fn name(x) = …;`")
+    } else if input.peek(Lit) {
+        (
+            OPERAND,
+            "a formula is made of real numbers: write one instead of this",
+        )
     } else if input.peek(Token![|]) || input.peek(Token![||]) {
         (
             BRANCH,
@@ -157,6 +187,15 @@ pub(super) fn no_operand(input: ParseStream<'_>) -> syn::Error {
         (OPERAND, "expected a number, a name or a function")
     };
     code.error(input.span(), message)
+}
+
+/// Whether `|x| formula` stands here.
+fn is_closure(input: ParseStream<'_>) -> bool {
+    let rest = input.fork();
+    rest.parse::<Token![|]>().is_ok()
+        && name::word(&rest).is_ok()
+        && rest.parse::<Token![|]>().is_ok()
+        && (rest.peek(Lit) || rest.peek(token::Paren) || name::peek_word(&rest).is_some())
 }
 
 /// `.5`
@@ -210,6 +249,10 @@ pub(super) fn unexpected(input: ParseStream<'_>, before: &Expression) -> syn::Er
     if let Some(power) = power_of_function(before) {
         return OPERATOR.error(before.extent.to(input.span()), power);
     }
+    if let Some(word) = last_name(before).filter(|word| *word == "return") {
+        let message = "a formula executes nothing: leave out `return`";
+        return UNEXPECTED.error(word, message);
+    }
     let message = match (last_name(before), name::peek_word(input)) {
         (Some(left), Some(right)) => format!("missing operator: write `{left}*{right}`"),
         _ => "missing operator: a product is written `a*b`".to_owned(),
@@ -256,15 +299,60 @@ fn unexpected_word(word: &str) -> Option<(Code, &'static str)> {
         "as" => (TYPE, "every quantity is real: leave out the conversion"),
         "in" => (
             HAMILTONIAN,
-            "only a `hamiltonian` has canonical pairs `in (q, p)`",
+            "nothing follows this formula: only a `hamiltonian` has its canonical pairs `in (q, p)`",
         ),
         "mod" => (OPERATOR, "the remainder is written `%`, as in `q[i % n]`"),
-        "if" | "else" | "when" | "where" => (
-            BRANCH,
-            "formulas have no branches: declare an `interface` and a `region` on each side of it",
+        "do" | "begin" | "end" | "endif" => (
+            UNEXPECTED,
+            "a block stands in braces, `{ … }`, and a formula ends with `;`",
         ),
-        _ => return None,
+        "with" | "over" | "wrt" => (
+            HAMILTONIAN,
+            "the canonical pairs of a `hamiltonian` stand behind `in`: `in (q, p)`",
+        ),
+        "to" | "step" => (RANGE, "a range is written `0..n`, and counts up by one"),
+        _ => return instead::of_branch(word),
     })
+}
+
+/// Whether two things are compared here.
+pub(super) fn at_comparison(input: ParseStream<'_>) -> bool {
+    input.peek(Token![==])
+        || input.peek(Token![=]) && !input.peek(Token![=>])
+        || input.peek(Token![!=])
+        || input.peek(Token![<=])
+        || input.peek(Token![>=])
+        || input.peek(Token![<]) && !input.peek(Token![<-])
+        || input.peek(Token![>])
+}
+
+/// Whether an operator of formulas stands here, and no assignment such as `+=`.
+pub(super) fn at_operator(input: ParseStream<'_>) -> bool {
+    !at_assignment(input)
+        && (input.peek(Token![+])
+            || input.peek(Token![-]) && !input.peek(Token![->])
+            || input.peek(Token![*])
+            || input.peek(Token![/])
+            || input.peek(Token![^]))
+}
+
+/// Whether `+=` or the like stands here.
+pub(super) fn at_assignment(input: ParseStream<'_>) -> bool {
+    input.peek(Token![+=])
+        || input.peek(Token![-=])
+        || input.peek(Token![*=])
+        || input.peek(Token![/=])
+        || input.peek(Token![^=])
+        || input.peek(Token![%=])
+}
+
+/// The last operand of a formula: that behind which a token is unexpected.
+pub(super) fn last_operand(expression: &Expression) -> Option<&Expression> {
+    match &expression.kind {
+        ExpressionKind::Negative(operand) => last_operand(operand),
+        ExpressionKind::Binary { right, .. } => last_operand(right),
+        _ => Some(expression),
+    }
 }
 
 fn last_name(expression: &Expression) -> Option<&Ident> {
@@ -277,18 +365,21 @@ fn last_name(expression: &Expression) -> Option<&Ident> {
 }
 
 fn unexpected_sign(input: ParseStream<'_>) -> (Code, &'static str) {
-    if input.peek(Token![==]) || input.peek(Token![=]) {
+    if input.peek(Token![->]) || input.peek(Token![=>]) {
+        (FUNCTION, "a function is declared as `fn name(x) = …;`")
+    } else if input.peek(Token![:]) || input.peek(Token![@]) || input.peek(Token![~]) {
+        (
+            UNEXPECTED,
+            "this sign has no meaning in a formula; an item ends with `;`",
+        )
+    } else if input.peek(Token![=]) && !input.peek(Token![==]) {
         (
             SEMICOLON,
             "a formula ends before `=`; is a `;` missing in front of this item?",
         )
-    } else if input.peek(Token![<])
-        || input.peek(Token![>])
-        || input.peek(Token![<=])
-        || input.peek(Token![>=])
+    } else if at_comparison(input)
         || input.peek(Token![&&])
         || input.peek(Token![||])
-        || input.peek(Token![!=])
         || input.peek(Token![?])
     {
         (
@@ -302,18 +393,15 @@ fn unexpected_sign(input: ParseStream<'_>) -> (Code, &'static str) {
         )
     } else if input.peek(Token![#]) {
         (COMMENT, "a comment is written `// …`")
-    } else if input.peek(Token![+=])
-        || input.peek(Token![-=])
-        || input.peek(Token![*=])
-        || input.peek(Token![/=])
-        || input.peek(Token![^=])
-        || input.peek(Token![%=])
-    {
+    } else if at_assignment(input) {
         (UNEXPECTED, "a formula has no assignments")
     } else if input.peek(Token![!]) {
         (UNEXPECTED, "there is no factorial: write the number")
     } else if input.peek(Token![,]) {
-        (UNEXPECTED, "a `,` separates the arguments of a function")
+        (
+            UNEXPECTED,
+            "a formula is one number: a `,` stands only between the arguments of a function",
+        )
     } else if input.peek(token::Brace) {
         (UNEXPECTED, "a formula has no block; is a `;` missing?")
     } else {

@@ -46,6 +46,7 @@ mod event;
 mod expression;
 mod formula;
 mod group;
+mod instead;
 mod item;
 mod mistake;
 mod name;
@@ -156,12 +157,19 @@ fn system(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<
     name::word(input)?;
     let name = name::declared_type(input, diagnostics)?;
     if !input.peek(token::Brace) {
-        let message = format!("expected `{{` after `system {name}`");
+        let message = format!(
+            "expected `{{` after `system {name}`: states and parameters are declared in its block"
+        );
         return Err(HEAD.error(input.span(), message));
     }
     let body;
     braced!(body in input);
     let items = item::items(&body, Place::System, diagnostics);
+    if input.peek(syn::Token![;]) && input.peek2(syn::parse::End) {
+        let message = "leave out the `;` behind the block of a system";
+        diagnostics.report(ONE_SYSTEM, input.span(), message);
+        name::skip_all(input);
+    }
     if !input.is_empty() {
         let message = "one `pws!` declares one system; write another `pws!` for the next";
         diagnostics.report(ONE_SYSTEM, input.span(), message);

@@ -3,7 +3,7 @@
 use proc_macro2::{Delimiter, Ident, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
-use syn::{Token, token};
+use syn::{Lit, Token, token};
 
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::syntax::{NAME, RESERVED_WORD};
@@ -76,6 +76,21 @@ pub(super) fn peek_is(input: ParseStream<'_>, text: &str) -> bool {
     peek_word(input).is_some_and(|ident| ident == text)
 }
 
+/// Whether a type of Rust, Modelica or C stands here, and a name behind it or nothing.
+pub(super) fn is_type(input: ParseStream<'_>) -> bool {
+    const OTHERS: &[&str] = &[
+        "Real", "real", "double", "float", "Float64", "int", "Integer",
+    ];
+    let Some(word) = peek_word(input).map(|word| word.to_string()) else {
+        return false;
+    };
+    let rest = input.fork();
+    skip_one(&rest);
+    let is_last = rest.is_empty() || rest.peek(Token![;]) || rest.peek(Token![=]);
+    PRIMITIVE_TYPES.contains(&word.as_str())
+        || OTHERS.contains(&word.as_str()) && (is_last || peek_word(&rest).is_some())
+}
+
 /// A name that the declaration introduces or refers to.
 pub(super) fn declared(input: ParseStream<'_>) -> syn::Result<Ident> {
     let (ident, refusal) = word_as_name(input)?;
@@ -98,7 +113,11 @@ pub(super) fn declared_or_reported(
 /// The word that stands as a name, and why it cannot be one.
 fn word_as_name(input: ParseStream<'_>) -> syn::Result<(Ident, Option<syn::Error>)> {
     let Some(ident) = peek_word(input) else {
-        return Err(NAME.error(input.span(), "expected a name"));
+        let message = match input.fork().parse::<Lit>() {
+            Ok(Lit::Int(_) | Lit::Float(_)) => "a name does not begin with a digit",
+            _ => "expected a name",
+        };
+        return Err(NAME.error(input.span(), message));
     };
     if begins_item(input) && ident != "der" {
         return Err(NAME.error(&ident, format!("expected a name in front of `{ident}`")));

@@ -30,7 +30,8 @@ pub(super) fn exact(literal: &Lit) -> Result<Rational, (Code, String)> {
         Lit::Int(number) => (number.base10_digits(), number.suffix()),
         Lit::Float(number) => (number.base10_digits(), number.suffix()),
         _ => {
-            return Err((OPERAND, "expected a number, a name or a function".into()));
+            let message = "a formula is made of real numbers: write one instead of this".into();
+            return Err((OPERAND, message));
         }
     };
     let text = literal_text(literal);
@@ -137,8 +138,8 @@ mod tests {
             ("0x1F", "numbers are decimal: write `31`"),
             ("1e400", "beyond the range"),
             ("1e99999999999999999999", "beyond the range"),
-            ("\"a\"", "expected a number"),
-            ("true", "expected a number"),
+            ("\"a\"", "made of real numbers"),
+            ("true", "made of real numbers"),
         ] {
             let error = read(text).expect_err(text);
             assert!(error.contains(message), "{text}: {error}");

@@ -4,11 +4,11 @@ use proc_macro2::{Group, Ident};
 use syn::parse::ParseStream;
 use syn::{Lit, Token, token};
 
+use super::instead;
 use super::name;
 use super::place::Place;
 use crate::diagnostics::catalogue::syntax::{
-    COMMENT, DERIVATIVE, FUNCTION, INITIAL_VALUE, MISPLACED_ITEM, ONE_SYSTEM, SEMICOLON,
-    UNKNOWN_ITEM,
+    COMMENT, DERIVATIVE, FUNCTION, INITIAL_VALUE, MISPLACED_ITEM, SEMICOLON, UNKNOWN_ITEM,
 };
 use crate::diagnostics::{Code, closest};
 
@@ -58,8 +58,18 @@ pub(super) fn no_word(input: ParseStream<'_>, place: Place) -> syn::Error {
         let message = format!("this `;` ends nothing: {}", expected(place));
         return SEMICOLON.error(input.span(), message);
     }
-    if input.peek(Token![#]) || input.peek(Token![%]) {
+    let is_dashes = input.peek(Token![-]) && input.peek2(Token![-]);
+    if input.peek(Token![#]) || input.peek(Token![%]) || is_dashes {
         return COMMENT.error(input.span(), "a comment is written `// …`");
+    }
+    if input.peek(Lit) || input.peek(token::Paren) {
+        let message =
+            "an item begins with its word: a rate stands alone on the left, `der(x) = …;`";
+        return UNKNOWN_ITEM.error(input.span(), message);
+    }
+    if input.peek(Token![+]) || input.peek(Token![-]) || input.peek(Token![*]) {
+        let message = "no item begins like this: does it go on the formula in front of the `;`?";
+        return SEMICOLON.error(input.span(), message);
     }
     UNKNOWN_ITEM.error(input.span(), expected(place))
 }
@@ -69,8 +79,15 @@ pub(super) fn word(input: ParseStream<'_>, keyword: &Ident, place: Place) -> syn
     let text = keyword.to_string();
     let rest = input.fork();
     name::skip_one(&rest);
-    let (code, message) = if rest.peek(token::Paren) {
+    let is_defined = rest.peek(Token![=]) && !rest.peek(Token![==]);
+    let known = instead::of_item(&text).filter(|_| !is_defined && !is_declared_call(&rest));
+    let (code, message) = if let Some(known) = known {
+        known
+    } else if rest.peek(token::Paren) {
         called(&rest, &text, place)
+    } else if rest.peek(Token![.]) {
+        let message = format!("a rate is written `der({text}) = …;`");
+        (DERIVATIVE, message)
     } else if rest.peek(Token![=]) && !rest.peek(Token![==]) {
         let message = format!(
             "write `let {text} = …;` to name a formula, and `der({}) = …;` for the rate of a state",
@@ -88,6 +105,14 @@ pub(super) fn word(input: ParseStream<'_>, keyword: &Ident, place: Place) -> syn
     code.error(keyword, message)
 }
 
+/// Whether the definition of a function follows, `(q) = …`, of which nothing is a number.
+fn is_declared_call(rest: ParseStream<'_>) -> bool {
+    let rest = rest.fork();
+    let arguments = rest.parse::<Group>();
+    let is_value = |arguments: &Group| syn::parse2::<Lit>(arguments.stream()).is_ok();
+    rest.peek(Token![=]) && arguments.is_ok_and(|arguments| !is_value(&arguments))
+}
+
 /// The state of which `dx`, `dxdt` or `x_dot` is probably meant to be the rate.
 fn state_of(text: &str) -> &str {
     let state = (text.strip_suffix("_dot"))
@@ -101,7 +126,16 @@ fn state_of(text: &str) -> &str {
 fn called(rest: ParseStream<'_>, text: &str, place: Place) -> (Code, String) {
     let is_derivative = matches!(
         text,
-        "d" | "D" | "dt" | "ddt" | "d_dt" | "diff" | "deriv" | "derivative" | "dot"
+        "d" | "D"
+            | "dt"
+            | "ddt"
+            | "d_dt"
+            | "diff"
+            | "deriv"
+            | "derivative"
+            | "Derivative"
+            | "dot"
+            | "rate"
     );
     let is_value = rest
         .fork()
@@ -122,37 +156,9 @@ fn called(rest: ParseStream<'_>, text: &str, place: Place) -> (Code, String) {
 }
 
 fn misnamed(text: &str, place: Place) -> (Code, String) {
-    let instead = match text {
-        "parameter" | "parameters" | "params" => "param",
-        "variable" | "variables" | "var" | "states" => "state",
-        "constant" => "const",
-        "function" | "func" | "def" => "fn",
-        "event" | "guard" | "switch" | "surface" => "interface",
-        "if" | "else" | "when" | "case" => {
-            let message = format!(
-                "unknown item `{text}`: each side of an interface is a region, `region name where wall > 0 {{ … }}`"
-            );
-            return (UNKNOWN_ITEM, message);
-        }
-        "mode" => "region",
-        "equation" | "equations" | "ode" | "deriv" | "derivative" => "der",
-        "invariant" | "invariants" | "conserve" | "conserves" | "integral" => "conserved",
-        "while" | "loop" => "for",
-        "initial" | "init" | "start" => {
-            let message = "the initial state is given to the integrator, not declared".into();
-            return (INITIAL_VALUE, message);
-        }
-        "system" => return (ONE_SYSTEM, "a system cannot contain another one".into()),
-        _ => {
-            let message = match closest(text, name::ITEMS.iter().copied()) {
-                Some(word) => format!("unknown item `{text}`; did you mean `{word}`?"),
-                None => format!("unknown item `{text}`: {}", expected(place)),
-            };
-            return (UNKNOWN_ITEM, message);
-        }
+    let message = match closest(text, name::ITEMS.iter().copied()) {
+        Some(word) => format!("unknown item `{text}`; did you mean `{word}`?"),
+        None => format!("unknown item `{text}`: {}", expected(place)),
     };
-    (
-        UNKNOWN_ITEM,
-        format!("unknown item `{text}`: write `{instead}`"),
-    )
+    (UNKNOWN_ITEM, message)
 }

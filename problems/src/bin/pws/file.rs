@@ -20,6 +20,13 @@ pub(crate) fn declarations(path: &Path) -> Result<Vec<TokenStream>, Failure> {
         .map_err(|message| Failure::Request(format!("{}:{message}", path.display())))
 }
 
+/// Writes every warning to standard error with its place in the file.
+pub(crate) fn warn(path: &Path, diagnostics: &Diagnostics) {
+    for warning in text::warnings(diagnostics) {
+        eprintln!("{}:{warning}", path.display());
+    }
+}
+
 /// Writes every error to standard error with its place in the file, and sums them up.
 pub(crate) fn report(path: &Path, diagnostics: &[Diagnostics]) -> Failure {
     let mut count = 0;

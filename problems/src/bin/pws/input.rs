@@ -75,6 +75,9 @@ fn own(path: &Path) -> Result<Problem, Failure> {
         let plural = if count == 1 { "" } else { "s" };
         Failure::Request(format!("{count} error{plural} in {}", path.display()))
     })?;
+    for (line, column, text) in model.warnings() {
+        eprintln!("{}:{line}:{column}: {text}", path.display());
+    }
     Problem::own(model).map_err(|error| Failure::Request(error.to_string()))
 }
 

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::emit;
 use dmm_compiler::scheme::Scheme;
 use dmm_problems::problem::Problem;
@@ -64,9 +65,13 @@ fn show_file(path: &Path, arguments: &Arguments) -> Result<(), Failure> {
     let mut schemes = Vec::new();
     let mut wrong = Vec::new();
     for declaration in file::declarations(path)? {
-        match dmm_compiler::read(declaration) {
-            Ok(scheme) => schemes.push(scheme),
-            Err(diagnostics) => wrong.push(diagnostics),
+        let mut diagnostics = Diagnostics::new();
+        match dmm_compiler::read_with(declaration, &mut diagnostics) {
+            Some(scheme) => {
+                file::warn(path, &diagnostics);
+                schemes.push(scheme);
+            }
+            None => wrong.push(diagnostics),
         }
     }
     if !wrong.is_empty() {

@@ -139,11 +139,11 @@ fn an_argument_hides_what_is_outside() {
 fn what_an_argument_hides_is_not_used() {
     all(
         "state q; param k = 1; fn f(k) = 2*k; der(q) = f(q);",
-        &["the parameter `k` is never used; remove it"],
+        &["warning: the parameter `k` is never used: remove it, or call it `_k`"],
     );
     one(
         "state q; fn f(q) = 1; der(q) = f(q) + q;",
-        "the argument `q` of `f` is never used; remove it",
+        "warning: the argument `q` of `f` is never used: remove it, or call it `_q`",
     );
     one(
         "state q[2]; fn f(q) = q[0]; der(q[0]) = f(q[1]); der(q[1]) = 1;",
@@ -204,11 +204,11 @@ fn functions_are_called_with_their_arguments() {
 fn functions_and_arguments_are_used() {
     all(
         "state x; fn f(a, b, _c) = a; der(x) = f(x, x, x);",
-        &["the argument `b` of `f` is never used; remove it"],
+        &["warning: the argument `b` of `f` is never used: remove it"],
     );
     all(
         "state x; fn f(a) = a; der(x) = 1;",
-        &["the function `f` is never used; remove it"],
+        &["warning: the function `f` is never used: remove it"],
     );
     model("system S { state x; fn _f(a) = a; der(x) = 1; }");
     // a misspelt call is a use

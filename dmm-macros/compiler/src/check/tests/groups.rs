@@ -173,7 +173,7 @@ fn defaults_are_one_or_one_an_element() {
         ),
         (
             "param m[2] = 1; der(x) = 1;",
-            "the parameter `m` is never used",
+            "warning: the parameter `m` is never used",
         ),
     ] {
         one(&format!("state x; {items}"), message);

@@ -162,7 +162,7 @@ fn loop_variables_have_names_of_their_own() {
         ),
         (
             "for i in 0..3 { der(q[i]) = sum(j in 0..3, q[i]); }",
-            "the loop variable `j` is never used: every turn is the same; call it `_j` if that is meant",
+            "warning: the loop variable `j` is never used: every turn is the same; call it `_j` if that is meant",
         ),
         (
             "for i in 0..3 { der(q[i]) = 1; } let _use = i;",

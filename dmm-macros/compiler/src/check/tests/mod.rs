@@ -26,7 +26,9 @@ fn read(text: &str) -> (Option<Model>, Vec<String>) {
     let declaration = declaration.expect("no error, so a declaration");
     let model = resolve(declaration, &mut diagnostics);
     assert_eq!(model.is_some(), diagnostics.is_empty());
-    (model, diagnostics.messages())
+    let warnings = diagnostics.warnings().map(|one| format!("warning: {one}"));
+    let messages = diagnostics.messages().into_iter().chain(warnings).collect();
+    (model, messages)
 }
 
 #[track_caller]

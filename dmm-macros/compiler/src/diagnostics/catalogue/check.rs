@@ -17,7 +17,7 @@ super::codes! {
         "Within the loop the name would mean something else than around it.",
         "Rename the loop variable.";
     UNUSED = 205, "something is declared and never used",
-        "It would have no effect, so that a formula is probably missing it.",
+        "A warning: it would have no effect, so that a formula is probably missing it.",
         "Use it, remove it, or begin its name with `_`.";
     NOT_A_QUANTITY = 206, "a name stands for something without a value",
         "Interfaces, regions, conserved quantities and functions cannot be parts of formulas.",
@@ -121,7 +121,7 @@ super::codes! {
         "Its switching function depends neither on a state nor on the time.",
         "Correct the switching function, or remove the interface.";
     NO_REGION = 262, "an interface bounds no region",
-        "An interface separates two regions, each with its own field.",
+        "A warning: an interface separates two regions, each with its own field. Without them nothing changes where it is crossed, and the system is the same without it.",
         "Write a region on each side of it.";
     REGION_WITHOUT_INTERFACE = 263, "a region has no interface that bounds it",
         "A region is one side of an interface.",

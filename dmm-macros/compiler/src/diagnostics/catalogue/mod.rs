@@ -7,8 +7,8 @@
 //! | 300–399 | [`proofs`] | what a declaration claims |
 //! | 400–499 | [`scheme`] | what is derived from it |
 //!
-//! `markdown` is the catalogue as a document, which `DIAGNOSTICS.md` beside this package is a
-//! copy of.
+//! `markdown` is the catalogue as a document, which `DIAGNOSTICS.md` of the runtime is a copy of:
+//! the documentation of `pws!` shows it.
 
 pub mod check;
 #[cfg(feature = "explore")]

@@ -41,7 +41,7 @@ fn every_entry_says_what_why_and_what_to_do() {
 
 #[test]
 fn the_document_is_up_to_date() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../DIAGNOSTICS.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../dmm-runtime/DIAGNOSTICS.md");
     let expected = markdown();
     if std::env::var_os(UPDATE).is_some() {
         std::fs::write(&path, &expected).expect("DIAGNOSTICS.md can be written");

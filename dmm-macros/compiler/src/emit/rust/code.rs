@@ -202,16 +202,20 @@ impl<'a> Block<'a> {
                 };
                 (power, vec![a, b])
             }
-            Math::Call(Function::Exp, a) if let Some(factors) = self.lowered.secular(*a) => {
-                let (negative, p, q) = factors;
-                let (first, second) = (self.expressions[&p].at(Binding::Sign), of(&q));
-                let sign = negative.then(|| quote!(-));
-                let call = quote!(#scalar::exp_product(#sign #first, #second));
-                (call, vec![a])
-            }
             Math::Call(function, a) => {
-                let (method, argument) = (method(function.name()), of(a));
-                (quote!(#scalar::#method(#argument)), vec![a])
+                let is_exp = *function == Function::Exp;
+                let call = match self.lowered.secular(*a).filter(|_| is_exp) {
+                    Some((negative, p, q)) => {
+                        let (first, second) = (self.expressions[&p].at(Binding::Sign), of(&q));
+                        let sign = negative.then(|| quote!(-));
+                        quote!(#scalar::exp_product(#sign #first, #second))
+                    }
+                    None => {
+                        let (method, argument) = (method(function.name()), of(a));
+                        quote!(#scalar::#method(#argument))
+                    }
+                };
+                (call, vec![a])
             }
             Math::Pair(function, [a, b]) => {
                 let (method, first, second) = (method(function.name()), of(a), of(b));
@@ -273,7 +277,8 @@ impl<'a> Block<'a> {
     /// A readable name for a shared node.
     fn name(&mut self, id: Id) -> Ident {
         match suggestion(self.lowered, id) {
-            Some(wish) => self.names.take(&wish),
+            // in lower case, which no constant around the declaration is
+            Some(wish) => self.names.take(&wish.to_lowercase()),
             None => self.names.number("u"),
         }
     }

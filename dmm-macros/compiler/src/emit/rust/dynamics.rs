@@ -57,9 +57,10 @@ fn item(emission: &Emission<'_>, region: usize, store: &Store<'_>) -> TokenStrea
         &statements,
         &quote!(#guards_value #values),
     );
+    let derived = paths::derive(&["Clone", "Copy", "Debug"]);
     quote! {
         #[doc = #doc]
-        #[derive(Clone, Copy, Debug)]
+        #derived
         struct #name<#scalar> { #guards_field #fields }
         #constructor
     }

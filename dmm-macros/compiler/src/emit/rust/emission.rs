@@ -24,6 +24,8 @@ pub(super) struct Emission<'a> {
     pub dynamics_of: Vec<Ident>,
     /// The struct of the guards, if there are any.
     pub guards: Option<Ident>,
+    /// The struct of the events, if there are any.
+    pub events: Option<Ident>,
 }
 
 impl<'a> Emission<'a> {
@@ -50,6 +52,7 @@ impl<'a> Emission<'a> {
                 .map(|name| types.take(&format!("{name}Dynamics")))
                 .collect(),
             guards: program.guards.as_ref().map(|_| types.take("Guards")),
+            events: program.events.as_ref().map(|_| types.take("Events")),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The events: a struct that computes what has to hold for each of them and the values after it.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::emission::Emission;
@@ -10,7 +10,7 @@ use super::store::{Store, constructor_impl};
 use crate::program::{Events, Quantity, Results};
 
 /// The struct with its `impl`.
-pub(super) fn events(emission: &Emission<'_>, program: &Events) -> TokenStream {
+pub(super) fn events(emission: &Emission<'_>, name: &Ident, program: &Events) -> TokenStream {
     let store = Store::new(&program.functions, &[]);
     let scalar = &emission.scalar;
     let states = emission.program.states.len();
@@ -25,7 +25,7 @@ pub(super) fn events(emission: &Emission<'_>, program: &Events) -> TokenStream {
     let constructor = constructor_impl(
         scalar,
         &TokenStream::new(),
-        &quote!(Events<#scalar>),
+        &quote!(#name<#scalar>),
         emission.program.parameters.len(),
         &statements,
         &values,
@@ -34,7 +34,7 @@ pub(super) fn events(emission: &Emission<'_>, program: &Events) -> TokenStream {
     let [vector, bound] = ["Vector", "Scalar"].map(paths::support);
     let count = paths::count(states);
     let after = quote!(::core::option::Option<(#vector<#scalar, #count>, [#scalar; #discrete])>);
-    let names: Vec<_> = (0..program.conditions.len())
+    let methods_of: Vec<_> = (0..program.conditions.len())
         .map(|number| format_ident!("event_{number}"))
         .collect();
     let methods = program
@@ -47,10 +47,10 @@ pub(super) fn events(emission: &Emission<'_>, program: &Events) -> TokenStream {
                 return None;
             };
             let (conditions, values) = column.split_at_checked(conditions)?;
-            let (x, after) = values.split_at_checked(states)?;
+            let (x, discrete) = values.split_at_checked(states)?;
             let body = scope.body(function, |block| {
                 let conditions = conditions.iter().map(|&one| block.value(one));
-                let discrete = after.iter().map(|&one| block.value(one));
+                let discrete = discrete.iter().map(|&one| block.value(one));
                 let x = scope.vector(block, x);
                 quote! {
                     #(if !(#scalar::to_f64(#conditions) > 0.0) {
@@ -59,29 +59,27 @@ pub(super) fn events(emission: &Emission<'_>, program: &Events) -> TokenStream {
                     ::core::option::Option::Some((#x, [#(#discrete),*]))
                 }
             });
-            let (name, after) = (
-                &names[number],
-                quote!(::core::option::Option<(#vector<#scalar, #count>, [#scalar; #discrete])>),
-            );
+            let method = &methods_of[number];
             Some(quote! {
-                fn #name(&self, t: #scalar, state: &#vector<#scalar, #count>) -> #after { #body }
+                fn #method(&self, t: #scalar, state: &#vector<#scalar, #count>) -> #after { #body }
             })
         });
     let methods: TokenStream = methods.flatten().collect();
-    let numbers = (0..names.len()).map(paths::count);
+    let numbers = (0..methods_of.len()).map(paths::count);
+    let derived = paths::derive(&["Clone", "Copy", "Debug"]);
     quote! {
         /// What has to hold for each event, and the values after it.
-        #[derive(Clone, Copy, Debug)]
-        struct Events<#scalar> { #fields }
+        #derived
+        struct #name<#scalar> { #fields }
         #constructor
         #[automatically_derived]
-        impl<#scalar: #bound> Events<#scalar> {
+        impl<#scalar: #bound> #name<#scalar> {
             #methods
             fn after(
                 &self, event: usize, t: #scalar, state: &#vector<#scalar, #count>
             ) -> #after {
                 match event {
-                    #(#numbers => self.#names(t, state),)*
+                    #(#numbers => self.#methods_of(t, state),)*
                     _ => ::core::option::Option::None,
                 }
             }

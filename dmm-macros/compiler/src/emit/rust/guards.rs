@@ -57,9 +57,10 @@ pub(super) fn guards(emission: &Emission<'_>, name: &Ident, program: &Guards) ->
         &values,
     );
     let implementation = implementation(emission, name, &scope, program);
+    let derived = paths::derive(&["Clone", "Copy", "Debug"]);
     quote! {
         /// The `COUNT` guards of region number `REGION`: its interfaces, and conditions of proofs.
-        #[derive(Clone, Copy, Debug)]
+        #derived
         struct #name<#scalar, const REGION: usize, const COUNT: usize> { #orientation #sides #fields }
         #constructor
         #implementation
@@ -94,7 +95,7 @@ fn implementation(
             #constants
             type Each<T: ::core::marker::Copy> = [T; COUNT];
             #[inline]
-            fn each<T: ::core::marker::Copy>(&self, value: impl FnMut(usize) -> T) -> [T; COUNT] {
+            fn each<T: ::core::marker::Copy>(&self, value: impl ::core::ops::FnMut(usize) -> T) -> [T; COUNT] {
                 ::core::array::from_fn(value)
             }
             type Over<#other: #bound> = #name<#other, REGION, COUNT>;
@@ -224,18 +225,17 @@ struct Turns<'a> {
 impl Turns<'_> {
     /// The body of a function, turned with its condition.
     fn body(&self, scope: &Scope<'_>, function: &Function) -> TokenStream {
-        match (function.quantity, &function.results) {
-            (Quantity::SwitchingFunction(index), &Results::Scalar(root))
-                if let Some(sign) = self.sign(index) =>
-            {
-                scope.body(function, |block| {
-                    let value = block.value(root);
-                    quote!(#sign * (#value))
-                })
-            }
-            (Quantity::SwitchingGradient(index), Results::ScalarAndColumn(by_time, gradient))
-                if let Some(sign) = self.sign(index) =>
-            {
+        let (Quantity::SwitchingFunction(index) | Quantity::SwitchingGradient(index)) =
+            function.quantity
+        else {
+            return body(scope, function);
+        };
+        match (self.sign(index), &function.results) {
+            (Some(sign), &Results::Scalar(root)) => scope.body(function, |block| {
+                let value = block.value(root);
+                quote!(#sign * (#value))
+            }),
+            (Some(sign), Results::ScalarAndColumn(by_time, gradient)) => {
                 scope.body(function, |block| {
                     let by_time = block.value(*by_time);
                     let gradient = scope.vector(block, gradient);

@@ -51,17 +51,18 @@ pub(super) fn item(emission: &Emission<'_>, listing: &str) -> TokenStream {
         let kind = match first.element {
             Some(_) => {
                 let count = paths::count(elements.len());
-                quote!([f64; #count])
+                quote!([::core::primitive::f64; #count])
             }
-            None => quote!(f64),
+            None => quote!(::core::primitive::f64),
         };
         Some(quote!(#docs #[doc = ""] #[doc = #default] pub #ident: #kind,))
     });
+    let derived = paths::derive(&["Clone", "Copy", "Debug", "PartialEq"]);
     quote! {
         #docs
         #[doc = ""]
         #[doc = #scheme]
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #derived
         #[allow(non_snake_case)]
         #visibility struct #name { #(#fields)* }
     }
@@ -98,9 +99,10 @@ pub(super) fn regions(emission: &Emission<'_>) -> TokenStream {
             let field = listing::documentation(&field);
             quote!(#docs #[doc = ""] #[doc = #field] #variant,)
         });
+    let derived = paths::derive(&["Clone", "Copy", "Debug", "PartialEq", "Eq", "Hash"]);
     quote! {
         #[doc = #docs]
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #derived
         #visibility enum #region { #(#variants)* }
     }
 }

@@ -3,11 +3,29 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// The hidden module of the runtime that emitted code uses, under a short name.
-pub(super) fn import() -> TokenStream {
+/// The hidden module of the runtime that emitted code uses, under a short name, and the primitive
+/// types, whatever these names mean around the declaration.
+pub(super) fn import(runtime: &TokenStream) -> TokenStream {
     quote!(
-        use ::dmm_runtime::support as dmm;
+        use #runtime::support as dmm;
+        #[allow(unused_imports)]
+        use ::core::primitive::{bool, f64, str, u32, usize};
     )
+}
+
+/// `#[derive(…)]` of traits by their paths: a scope may have others under their names.
+pub(super) fn derive(names: &[&str]) -> TokenStream {
+    let paths = names.iter().map(|name| match *name {
+        "Clone" => quote!(::core::clone::Clone),
+        "Copy" => quote!(::core::marker::Copy),
+        "Debug" => quote!(::core::fmt::Debug),
+        "Hash" => quote!(::core::hash::Hash),
+        name => {
+            let name = format_ident!("{name}");
+            quote!(::core::cmp::#name)
+        }
+    });
+    quote!(#[derive(#(#paths),*)])
 }
 
 /// `dmm::name`, after [`import`].

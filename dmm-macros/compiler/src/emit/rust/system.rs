@@ -14,9 +14,9 @@ use crate::model::Parameter;
 use crate::program::{Metadata, Program};
 
 /// Everything that `pws!` emits for a system.
-pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
+pub(in crate::emit) fn system(program: &Program<'_>, runtime: &TokenStream) -> TokenStream {
     let emission = Emission::new(program);
-    let import = paths::import();
+    let import = paths::import(runtime);
     let listing = listing::listing(program.scheme);
     let item = item(&emission, &listing);
     let regions = regions(&emission);
@@ -26,10 +26,9 @@ pub(in crate::emit) fn system(program: &Program<'_>) -> TokenStream {
     let guards = (emission.guards.as_ref())
         .zip(program.guards.as_ref())
         .map(|(name, program)| guards(&emission, name, program));
-    let events = program
-        .events
-        .as_ref()
-        .map(|program| events(&emission, program));
+    let events = (emission.events.as_ref())
+        .zip(program.events.as_ref())
+        .map(|(name, program)| events(&emission, name, program));
     let dynamics_of = (program.dynamics.iter().enumerate())
         .map(|(region, program)| dynamics(&emission, region, program));
     quote! {
@@ -173,8 +172,8 @@ impl Constants {
             .map(|index| quote!(region.constant(#index)))
             .collect();
         let all = quote!(#(#parameters),*);
-        let jump = program.events.as_ref().map(|_| {
-            quote! {
+        let jump = emission.events.as_ref().map(|events| {
+                quote! {
                 fn jump(
                     &self,
                     region: Self::Region,
@@ -183,7 +182,7 @@ impl Constants {
                     state: &#vector<f64, #states>,
                 ) -> ::core::option::Option<(#vector<f64, #states>, Self::Region)> {
                     let parameters = [#(self.#fields,)* #(#parameters),*];
-                    let (state, discrete) = Events::<f64>::new(&parameters).after(event, t, state)?;
+                    let (state, discrete) = #events::<f64>::new(&parameters).after(event, t, state)?;
                     ::core::option::Option::Some((state, #mode { discrete, ..region }))
                 }
             }

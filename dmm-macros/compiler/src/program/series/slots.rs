@@ -72,9 +72,13 @@ impl Slots {
 
     /// Where the coefficients of a slot are.
     pub(super) fn place(&self, slot: Slot) -> Place {
-        match slot {
-            Slot::Node(id) if let Some(state) = self.state(id) => Place::State(state),
-            slot => Place::Slot(self.numbers[&slot]),
+        let state = match slot {
+            Slot::Node(id) => self.state(id),
+            _ => None,
+        };
+        match state {
+            Some(state) => Place::State(state),
+            None => Place::Slot(self.numbers[&slot]),
         }
     }
 }

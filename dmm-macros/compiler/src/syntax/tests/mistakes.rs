@@ -25,7 +25,7 @@ fn one_precise_message_for_a_wrong_formula() {
         ("x > 0", "neither comparisons nor branches"),
         ("if x { 1 } else { 2 }", "no branches"),
         ("x, 2", "takes one definition"),
-        ("\"x\"", "expected a number"),
+        ("\"x\"", "made of real numbers"),
         ("sin()()", "missing operator"),
     ] {
         let messages = formula_messages(formula);
@@ -57,7 +57,7 @@ fn one_precise_message_for_a_wrong_item() {
         ("state _;", "`_` is not a name"),
         ("state r#in;", "raw identifiers"),
         ("state region;", "a word of the declaration language"),
-        ("state 1;", "expected a name"),
+        ("state 1;", "does not begin with a digit"),
         ("sate x;", "did you mean `state`?"),
         ("parameter k = 1;", "write `param`"),
         ("invariant h = 1;", "write `conserved`"),
@@ -90,7 +90,7 @@ fn one_precise_message_for_a_wrong_item() {
         ),
         ("region a where { }", "expected a condition"),
         ("region a;", "a region has a block"),
-        ("region a g > 0 { }", "expected `where …`"),
+        ("region a g > 0 { }", "write `region a where wall > 0"),
         ("region a { state x; }", "belongs at the top level"),
         ("region a { der x = 1; }", "write `der(x) = …;`"),
         (
@@ -99,6 +99,41 @@ fn one_precise_message_for_a_wrong_item() {
         ),
         ("#![doc = \"a\"] state x;", "in front of it"),
         ("; state x;", "expected `state`, `param`"),
+        (
+            "jump floor { v = -v; }",
+            "state jumps are not supported yet",
+        ),
+        ("reset(v) = -v;", "declared as `fn reset(…) = …;`"),
+        ("reset v = -v;", "state jumps are not supported yet"),
+        ("event floor = h;", "write `interface name = g;`"),
+        ("slide floor;", "sliding is not supported yet"),
+        ("x.dot = v;", "a rate is written `der(x) = …;`"),
+        ("conserved e: x^2;", "write `conserved e = …;` with `=`"),
+        ("param k: 1;", "write `param k = …;` with `=`"),
+        ("state y(t);", "write `state y;`"),
+        ("state y(0) = 1;", "the initial state is given"),
+        ("state y(3);", "declared as `y[3]`"),
+        ("state (x, y);", "names stand without brackets"),
+        ("state x in R;", "leave out what begins with this `in`"),
+        ("state f64 x;", "without a type"),
+        ("param k(t) = 1;", "`let k = …;`"),
+        ("2*der(x) = 1;", "a rate stands alone on the left"),
+        ("der(x) + x = 1;", "a rate stands alone on the left"),
+        ("der(x) += 1;", "nothing is added up"),
+        ("interface x - 1;", "write `interface name = …;`"),
+        ("interface w = x > 0;", "where its formula is zero"),
+        ("interface w = x = 0;", "where its formula is zero"),
+        ("region x > 0 { }", "a region has a name"),
+        (
+            "param k = 1,5;",
+            "decimals stand behind a point: write `1.5`",
+        ),
+        (
+            "der(x) = 2*1,5*x;",
+            "decimals stand behind a point: write `1.5`",
+        ),
+        ("-- a comment", "a comment is written `// …`"),
+        ("der(x) = 1; + x;", "in front of the `;`"),
     ] {
         let messages = item_messages(items);
         assert_eq!(messages.len(), 1, "{items}: {messages:?}");

@@ -1,0 +1,1 @@
+//! Where `pws!` may stand; see `tests/`.
