@@ -30,7 +30,7 @@ use thiserror::Error as ThisError;
 /// // what was computed until there is not lost
 /// assert_eq!(interrupted.solution().last().map(|point| point.t), Some(1.0));
 /// ```
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq)]
 pub struct Error {
     /// What happened.
     pub kind: ErrorKind,
@@ -63,6 +63,14 @@ pub enum ErrorKind {
         value: String,
         /// What it has to be.
         requirement: &'static str,
+    },
+    /// A slice of another length than the system has states was given as a state.
+    #[error("the state has {given} entries, but the system has {states} states")]
+    StateLength {
+        /// How many states the system has.
+        states: usize,
+        /// How many entries were given.
+        given: usize,
     },
     /// The implicit equation of a step could not be solved.
     #[error(
@@ -172,6 +180,20 @@ pub enum ErrorKind {
         /// … within this time.
         within: f64,
     },
+    /// The points and transitions of a trajectory take more memory than they may.
+    #[error(
+        "the {points} points and {transitions} transitions up to here take all of {bytes} bytes, or \
+         all that there are: keep fewer by `every` or `output_times`, watch the run by \
+         `observe_until`, which keeps none, or raise `memory_limit`"
+    )]
+    MemoryLimit {
+        /// The limit.
+        bytes: usize,
+        /// Points that are kept.
+        points: usize,
+        /// Transitions that are kept.
+        transitions: usize,
+    },
     /// An output was asked for at a time that was not integrated.
     #[error("no solution at t = {t}: it is known from {from} to {to}")]
     OutOfRange {
@@ -243,6 +265,34 @@ impl fmt::Display for Error {
         match &self.place {
             Some(place) => write!(f, "at {place}: {}", self.kind),
             None => self.kind.fmt(f),
+        }
+    }
+}
+
+/// As text, like [`Display`](fmt::Display): what a `main` returns is printed so. The fields are
+/// printed by `{:#?}`.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.fmt_as_text_or(f, |f| {
+            f.debug_struct("Error")
+                .field("kind", &self.kind)
+                .field("place", &self.place)
+                .finish()
+        })
+    }
+}
+
+impl Error {
+    /// The text, or `fields` where `{:#?}` asks for them.
+    pub(crate) fn fmt_as_text_or(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        fields: impl FnOnce(&mut fmt::Formatter<'_>) -> fmt::Result,
+    ) -> fmt::Result {
+        if f.alternate() {
+            fields(f)
+        } else {
+            fmt::Display::fmt(self, f)
         }
     }
 }

@@ -110,8 +110,8 @@ mod tape;
 
 pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
 pub use contract::{
-    Condition, Dynamics, DynamicsVisitor, Guards, Metadata, NoGuards, RegionMetadata, Side,
-    Solvability, System,
+    Condition, Dynamics, DynamicsVisitor, Guards, InitialState, Metadata, NoGuards, RegionMetadata,
+    Side, Solvability, System,
 };
 pub use dmm_macros::pws;
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};
@@ -126,4 +126,7 @@ pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure};
 #[cfg(feature = "model")]
 pub use model::{Model, ModelError, ModelVisitor};
-pub use output::{End, Halted, Interrupted, Observer, Point, Solution, Transition};
+pub use output::{
+    End, EndedBy, Halted, Interrupted, IntoControlFlow, Observer, OnPoint, OnTransition, Point,
+    Progress, Solution, Transition, on_point, on_transition, progress,
+};

@@ -8,12 +8,14 @@
 mod condition;
 mod dynamics;
 mod guards;
+mod initial;
 mod metadata;
 mod system;
 
 pub use condition::Condition;
 pub use dynamics::{Dynamics, DynamicsVisitor, Solvability};
 pub use guards::{Guards, LOW_DEGREE, NoGuards, Side};
+pub use initial::InitialState;
 pub use metadata::{Metadata, RegionMetadata};
 pub use system::System;
 
