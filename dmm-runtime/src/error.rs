@@ -64,6 +64,17 @@ pub enum ErrorKind {
         /// What it has to be.
         requirement: &'static str,
     },
+    /// The end time lies before the initial time.
+    #[error(
+        "the end time {t_end} is before the initial time {t0}: time runs forwards; to go backwards, \
+         integrate `Reversed(system)` from {} to {}", -t0, -t_end
+    )]
+    BackwardTime {
+        /// Initial time.
+        t0: f64,
+        /// End time.
+        t_end: f64,
+    },
     /// A slice of another length than the system has states was given as a state.
     #[error("the state has {given} entries, but the system has {states} states")]
     StateLength {

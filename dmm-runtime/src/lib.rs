@@ -111,7 +111,7 @@ mod tape;
 pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
 pub use contract::{
     Condition, Dynamics, DynamicsVisitor, Guards, InitialState, Metadata, NoGuards, RegionMetadata,
-    Side, Solvability, System,
+    Reversed, Side, Solvability, System,
 };
 pub use dmm_macros::pws;
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};

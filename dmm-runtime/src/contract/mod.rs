@@ -10,6 +10,7 @@ mod dynamics;
 mod guards;
 mod initial;
 mod metadata;
+mod reversed;
 mod system;
 
 pub use condition::Condition;
@@ -17,6 +18,7 @@ pub use dynamics::{Dynamics, DynamicsVisitor, Solvability};
 pub use guards::{Guards, LOW_DEGREE, NoGuards, Side};
 pub use initial::InitialState;
 pub use metadata::{Metadata, RegionMetadata};
+pub use reversed::Reversed;
 pub use system::System;
 
 pub(crate) use crate::arithmetic::{Matrix, Vector};

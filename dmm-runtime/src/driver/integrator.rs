@@ -7,7 +7,7 @@ use super::conditions::check_conditions;
 use super::run::Run;
 use super::start::{Start, check_region, find_region};
 use crate::contract::{InitialState, System, Vector};
-use crate::error::{Error, invalid, number};
+use crate::error::{Error, ErrorKind, invalid, number};
 use crate::method::Method;
 use crate::output::{End, EndedBy, Halted, Interrupted, Observer, Point, Solution};
 
@@ -193,12 +193,11 @@ pub(super) fn check_times(t0: f64, t_end: f64) -> Result<(), Error> {
     if !t0.is_finite() {
         return invalid("initial time", number(t0), "must be finite");
     }
-    if !(t_end.is_finite() && t_end >= t0) {
-        return invalid(
-            "end time",
-            number(t_end),
-            "must be finite and not before the initial time",
-        );
+    if !t_end.is_finite() {
+        return invalid("end time", number(t_end), "must be finite");
+    }
+    if t_end < t0 {
+        return Err(ErrorKind::BackwardTime { t0, t_end }.into());
     }
     if t0.abs().max(t_end.abs()) > LARGEST_TIME {
         return invalid(

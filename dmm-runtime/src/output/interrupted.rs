@@ -28,7 +28,7 @@ use crate::method::Method;
 ///     solution.at(t_end).map(|x| x[0])
 /// }
 ///
-/// assert!((end(0.5).unwrap() - 2.0).abs() < 1e-12);
+/// assert!((end(0.5).unwrap() - 2.0).abs() < 1e-10);
 /// let error = end(2.0).unwrap_err();
 /// assert!(error.place().is_some_and(|place| (place.t - 1.0).abs() < 1e-6));
 /// // `main` prints an error that it returns by `Debug`: as text
