@@ -88,6 +88,33 @@ where
 {
     /// Names the region to start in. Only a start on an interface from which both vector
     /// fields lead away needs it; elsewhere it is checked.
+    ///
+    /// A run is started again from a transition point with the region that was entered, whatever
+    /// sign rounding has left of g there:
+    ///
+    /// ```
+    /// use dmm_runtime::{Best, Integrator, pws};
+    ///
+    /// pws! {
+    ///     /// A ball between two springs.
+    ///     pub system Ball {
+    ///         state x, v;
+    ///         interface spring = x;
+    ///         region free where spring > 0 { der(x) = v; der(v) = -1; }
+    ///         region pressed where spring < 0 { der(x) = v; der(v) = -1 - 4*x; }
+    ///     }
+    /// }
+    ///
+    /// let from = |t, x| Integrator::new(&Ball {}, Best::tolerance(1e-12)).initial(t, x);
+    /// let whole = from(0.0, [1.0, 0.0].into()).run_until(20.0)?;
+    /// for transition in whole.transitions() {
+    ///     let rest = from(transition.t, transition.x).region(transition.to).run_until(20.0)?;
+    ///     let after = whole.transitions().iter().filter(|other| other.t > transition.t).count();
+    ///     assert_eq!(rest.transitions().len(), after);
+    ///     assert!((rest.at(20.0)? - whole.at(20.0)?).norm() < 1e-12);
+    /// }
+    /// # Ok::<(), dmm_runtime::Error>(())
+    /// ```
     #[must_use]
     pub fn region(self, region: Sys::Region) -> Self {
         Self {
@@ -176,7 +203,7 @@ where
         let x0 = self.x0.clone()?;
         check_values(*system, &x0)?;
         let start = match self.region {
-            Some(region) => check_region(*system, region, self.t0, &x0),
+            Some(region) => check_region(*system, region, (self.t0, t_end), &x0),
             None => find_region(*system, self.t0, &x0),
         }?;
         check_conditions(*system, start.region, self.t0, &x0)?;

@@ -8,7 +8,7 @@ use super::run::Run;
 use super::start::{check_region, find_region};
 use crate::arithmetic::State;
 use crate::contract::{InitialState, System, Vector};
-use crate::error::Error;
+use crate::error::{Error, invalid, number};
 use crate::method::{Active, Cursor, Ended, Method, Statistics};
 use crate::output::{Observer, Point, Transition};
 
@@ -193,7 +193,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
         let t = time.value;
         check_values(&system, &x)?;
         let start = match region {
-            Some(region) => check_region(&system, region, t, &x),
+            Some(region) => check_region(&system, region, (t, self.t_end), &x),
             None => find_region(&system, t, &x),
         }?;
         check_conditions(&system, start.region, t, &x)?;
@@ -212,6 +212,13 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
     /// An end time that is not finite, or too early.
     pub fn extend(&mut self, t_end: f64) -> Result<(), Error> {
         let t = self.run.cursor.time.value;
+        if t_end < t {
+            return invalid(
+                "end time",
+                number(t_end),
+                "must not be before the present time",
+            );
+        }
         check_times(t, t_end)?;
         self.method.check(t, t_end)?;
         self.t_end = t_end;
