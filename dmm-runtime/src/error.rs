@@ -100,6 +100,18 @@ pub enum ErrorKind {
          step is too large"
     )]
     LeftDomain,
+    /// The vector field has no value at the point: a start outside its domain, or a step that led out
+    /// of it.
+    #[error("the vector field has no value there: {function} is not defined at u = {}", number(*argument))]
+    Undefined {
+        /// The function that has none, of u; of what is left of the formula when it is compiled.
+        function: &'static str,
+        /// u
+        argument: f64,
+    },
+    /// The solution, or what is computed from it, grows beyond the largest double.
+    #[error("overflow: the solution or what is computed from it grows beyond 1.8e308")]
+    Overflow,
     /// The solution leaves the condition under which a quantity was proved to be conserved; see
     /// [`Condition`](crate::Condition). Where it may go on without the quantity, or with another
     /// one, the declaration has an interface there and a region beyond.
@@ -260,7 +272,8 @@ impl Error {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "t = {}, x = {:?}", self.t, self.x)?;
+        let x: Vec<String> = self.x.iter().copied().map(number).collect();
+        write!(f, "t = {}, x = [{}]", number(self.t), x.join(", "))?;
         if !self.region.is_empty() {
             write!(f, " in region `{}`", self.region)?;
         }
