@@ -126,6 +126,8 @@ pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure};
 #[cfg(feature = "model")]
 pub use model::{Model, ModelError, ModelVisitor};
+/// The vectors and matrices of states: [`Vector`] and [`Matrix`] are its.
+pub use nalgebra;
 pub use output::{
     End, EndedBy, Halted, Interrupted, IntoControlFlow, Observer, OnPoint, OnTransition, Point,
     Progress, Solution, Transition, on_point, on_transition, progress,

@@ -147,7 +147,8 @@ impl<Met: Method> Ensemble<Met> {
         }
     }
 
-    /// The number of threads (default: one for each core that the process may use).
+    /// The number of threads (default: one for each core that the process may use; always one in
+    /// WebAssembly).
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self {
@@ -253,6 +254,12 @@ impl<Met: Method> Ensemble<Met> {
         const LARGEST: usize = 256;
         let cores = || thread::available_parallelism().map_or(1, usize::from);
         let threads = self.threads.unwrap_or_else(cores);
+        // a thread cannot be started there
+        let threads = if cfg!(target_family = "wasm") {
+            1
+        } else {
+            threads
+        };
         let count = most.map_or(usize::MAX, |most| most.max(least));
         Pool {
             threads: threads.min(count.div_ceil(smallest)),

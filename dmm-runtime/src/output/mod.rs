@@ -1,5 +1,7 @@
 //! What a run gives: points and transitions as they come, or a whole trajectory.
 
+#[cfg(feature = "ndarray")]
+mod arrays;
 mod closures;
 mod csv;
 mod end;
@@ -7,6 +9,8 @@ mod failure;
 mod interrupted;
 mod observer;
 mod recorder;
+#[cfg(feature = "serde")]
+mod serialise;
 mod solution;
 
 pub use closures::{
