@@ -12,10 +12,12 @@
 //! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`] |
 //! | go step by step, stop, change, go on | [`Stepper`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
+//! | see how a common task is done | the [`guide`] |
 //! | keep some of its points only | [`Recording`] |
-//! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
+//! | watch a long run in constant memory | [`on_point`], [`on_transition`], [`progress`], [`Observer`]; [`End`], [`Halted`] |
+//! | go backwards in time | [`Reversed`] |
 //! | integrate many initial states and parameters | [`Ensemble`] |
-//! | evaluate ψ at a point | [`System::conserved`] |
+//! | evaluate f, g and ψ at a point | [`System::vector_field`], [`System::switching_function`], [`System::conserved`] |
 //! | choose systems and methods at run time | [`dynamic`] |
 //! | compile a declaration at run time | `Model`, with the feature `model` |
 //! | replace the search for crossings of one-step methods | [`Locator`] |
@@ -96,6 +98,7 @@ mod ensemble;
 mod error;
 mod events;
 mod expansion;
+pub mod guide;
 mod level;
 mod method;
 #[cfg(feature = "model")]
