@@ -30,7 +30,7 @@ use thiserror::Error as ThisError;
 /// // what was computed until there is not lost
 /// assert_eq!(interrupted.solution().last().map(|point| point.t), Some(1.0));
 /// ```
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq)]
 pub struct Error {
     /// What happened.
     pub kind: ErrorKind,
@@ -64,6 +64,25 @@ pub enum ErrorKind {
         /// What it has to be.
         requirement: &'static str,
     },
+    /// The end time lies before the initial time.
+    #[error(
+        "the end time {t_end} is before the initial time {t0}: time runs forwards; to go backwards, \
+         integrate `Reversed(system)` from {} to {}", -t0, -t_end
+    )]
+    BackwardTime {
+        /// Initial time.
+        t0: f64,
+        /// End time.
+        t_end: f64,
+    },
+    /// A slice of another length than the system has states was given as a state.
+    #[error("the state has {given} entries, but the system has {states} states")]
+    StateLength {
+        /// How many states the system has.
+        states: usize,
+        /// How many entries were given.
+        given: usize,
+    },
     /// The implicit equation of a step could not be solved.
     #[error(
         "no solution of the step was found (residual {residual:e} after {iterations} Newton \
@@ -81,6 +100,18 @@ pub enum ErrorKind {
          step is too large"
     )]
     LeftDomain,
+    /// The vector field has no value at the point: a start outside its domain, or a step that led out
+    /// of it.
+    #[error("the vector field has no value there: {function} is not defined at u = {}", number(*argument))]
+    Undefined {
+        /// The function that has none, of u; of what is left of the formula when it is compiled.
+        function: &'static str,
+        /// u
+        argument: f64,
+    },
+    /// The solution, or what is computed from it, grows beyond the largest double.
+    #[error("overflow: the solution or what is computed from it grows beyond 1.8e308")]
+    Overflow,
     /// The solution leaves the condition under which a quantity was proved to be conserved; see
     /// [`Condition`](crate::Condition). Where it may go on without the quantity, or with another
     /// one, the declaration has an interface there and a region beyond.
@@ -191,6 +222,20 @@ pub enum ErrorKind {
         /// … within this time.
         within: f64,
     },
+    /// The points and transitions of a trajectory take more memory than they may.
+    #[error(
+        "the {points} points and {transitions} transitions up to here take all of {bytes} bytes, or \
+         all that there are: keep fewer by `every` or `output_times`, watch the run by \
+         `observe_until`, which keeps none, or raise `memory_limit`"
+    )]
+    MemoryLimit {
+        /// The limit.
+        bytes: usize,
+        /// Points that are kept.
+        points: usize,
+        /// Transitions that are kept.
+        transitions: usize,
+    },
     /// An output was asked for at a time that was not integrated.
     #[error("no solution at t = {t}: it is known from {from} to {to}")]
     OutOfRange {
@@ -255,7 +300,8 @@ impl Error {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "t = {}, x = {:?}", self.t, self.x)?;
+        let x: Vec<String> = self.x.iter().copied().map(number).collect();
+        write!(f, "t = {}, x = [{}]", number(self.t), x.join(", "))?;
         if !self.region.is_empty() {
             write!(f, " in region `{}`", self.region)?;
         }
@@ -271,6 +317,34 @@ impl fmt::Display for Error {
         match &self.place {
             Some(place) => write!(f, "at {place}: {}", self.kind),
             None => self.kind.fmt(f),
+        }
+    }
+}
+
+/// As text, like [`Display`](fmt::Display): what a `main` returns is printed so. The fields are
+/// printed by `{:#?}`.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.fmt_as_text_or(f, |f| {
+            f.debug_struct("Error")
+                .field("kind", &self.kind)
+                .field("place", &self.place)
+                .finish()
+        })
+    }
+}
+
+impl Error {
+    /// The text, or `fields` where `{:#?}` asks for them.
+    pub(crate) fn fmt_as_text_or(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        fields: impl FnOnce(&mut fmt::Formatter<'_>) -> fmt::Result,
+    ) -> fmt::Result {
+        if f.alternate() {
+            fields(f)
+        } else {
+            fmt::Display::fmt(self, f)
         }
     }
 }

@@ -47,10 +47,12 @@
 //! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`] |
 //! | go step by step, stop, change, go on | [`Stepper`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
+//! | see how a common task is done | the [`guide`] |
 //! | keep some of its points only | [`Recording`] |
-//! | watch a long run in constant memory | [`Observer`]; [`End`], [`Halted`] |
+//! | watch a long run in constant memory | [`on_point`], [`on_transition`], [`progress`], [`Observer`]; [`End`], [`Halted`] |
+//! | go backwards in time | [`Reversed`] |
 //! | integrate many initial states and parameters | [`Ensemble`] |
-//! | evaluate ψ at a point | [`System::conserved`] |
+//! | evaluate f, g and ψ at a point | [`System::vector_field`], [`System::switching_function`], [`System::conserved`] |
 //! | choose systems and methods at run time | [`dynamic`] |
 //! | compile a declaration at run time | `Model`, with the feature `model` |
 //! | replace the search for crossings of one-step methods | [`Locator`] |
@@ -131,6 +133,7 @@ mod ensemble;
 mod error;
 mod events;
 mod expansion;
+pub mod guide;
 mod language;
 mod level;
 mod method;
@@ -146,8 +149,8 @@ mod tape;
 
 pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
 pub use contract::{
-    Condition, Dynamics, DynamicsVisitor, Event, Guards, Metadata, Mode, NoGuards, RegionMetadata,
-    Side, Solvability, System,
+    Condition, Dynamics, DynamicsVisitor, Event, Guards, InitialState, Metadata, Mode, NoGuards,
+    RegionMetadata, Reversed, Side, Solvability, System,
 };
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};
 pub use ensemble::{Ensemble, Member, Outcome};
@@ -161,4 +164,9 @@ pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure};
 #[cfg(feature = "model")]
 pub use model::{Model, ModelError, ModelVisitor};
-pub use output::{End, Halted, Interrupted, Observer, Point, Solution, Transition, TransitionKind};
+/// The vectors and matrices of states: [`Vector`] and [`Matrix`] are its.
+pub use nalgebra;
+pub use output::{
+    End, EndedBy, Halted, Interrupted, IntoControlFlow, Observer, OnPoint, OnTransition, Point,
+    Progress, Solution, Transition, TransitionKind, on_point, on_transition, progress,
+};

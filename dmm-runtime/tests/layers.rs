@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "error",
     "arithmetic",
     "special",
@@ -20,6 +20,7 @@ const LAYERS: [&str; 16] = [
     "ensemble",
     "dynamic",
     "model",
+    "guide",
     "lib",
 ];
 

@@ -166,3 +166,36 @@ fn a_change_is_a_new_start() {
         assert_eq!((stepper.point(), stepper.system().k), (before, 5.0));
     }
 }
+
+#[test]
+fn a_state_is_set_and_its_region_named() {
+    let system = Springs::default();
+    let mut stepper = stepper(&system, Best::tolerance(1e-12));
+    stepper.step().unwrap();
+    stepper.set_state([1, -1]).unwrap();
+    assert_eq!(stepper.point().region, SpringsRegion::Below);
+    stepper
+        .set_state_in(SpringsRegion::Above, [1.0, 1.0])
+        .unwrap();
+    assert_eq!(stepper.point().region, SpringsRegion::Above);
+    // what cannot be is refused, and nothing has changed
+    let before = stepper.point();
+    let refused = stepper.set_state(&[1.0, 2.0, 3.0][..]).unwrap_err();
+    let lengths = ErrorKind::StateLength {
+        states: 2,
+        given: 3,
+    };
+    assert_eq!(refused.kind, lengths);
+    let refused = stepper.set_state_in(SpringsRegion::Below, [1.0, 1.0]);
+    assert!(matches!(
+        refused.unwrap_err().kind,
+        ErrorKind::InvalidInput { what: "region", .. }
+    ));
+    assert_eq!(stepper.point(), before);
+    while stepper.step().unwrap().is_some() {}
+    let solution = Integrator::new(&system, Best::tolerance(1e-12))
+        .initial(before.t, vec![1.0, 1.0])
+        .run_until(40.0)
+        .unwrap();
+    assert!((stepper.point().x - solution.last().unwrap().x).amax() < 1e-13);
+}

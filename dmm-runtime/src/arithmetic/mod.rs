@@ -11,6 +11,7 @@ mod scalar;
 mod sparse;
 mod state;
 mod time;
+pub(crate) mod traced;
 
 pub use minimal_norm::MinimalNorm;
 pub use scalar::Scalar;

@@ -8,15 +8,19 @@
 mod condition;
 mod dynamics;
 mod guards;
+mod initial;
 mod metadata;
 mod mode;
+mod reversed;
 mod system;
 
 pub use condition::Condition;
 pub use dynamics::{Dynamics, DynamicsVisitor, Solvability};
 pub use guards::{Guards, LOW_DEGREE, NoGuards, Side, sides};
+pub use initial::InitialState;
 pub use metadata::{Event, Metadata, RegionMetadata};
 pub use mode::Mode;
+pub use reversed::Reversed;
 pub use system::System;
 
 pub(crate) use crate::arithmetic::{Matrix, Vector};

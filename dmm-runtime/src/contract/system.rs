@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::{Dynamics, DynamicsVisitor, Metadata, RegionMetadata, Side};
+use super::{Dynamics, DynamicsVisitor, Guards, Metadata, RegionMetadata, Side};
 use crate::arithmetic::{Scalar, Vector};
 
 /// A piecewise-smooth system with N states: ẋ = fᵣ(t, x) while x is in region r
@@ -78,6 +78,11 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
         region
     }
 
+    /// Why the system cannot be integrated, if it cannot.
+    fn refusal(&self) -> Option<&'static str> {
+        None
+    }
+
     /// The state and the mode after event number `event` of [`Metadata::events`]; nothing where a
     /// condition of it does not hold.
     fn jump(
@@ -128,6 +133,55 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// ```
     fn conserved(&self, region: Self::Region, t: f64, x: &Vector<f64, N>) -> Vec<f64> {
         self.visit(region, Conserved { t, x })
+    }
+
+    /// f(t, x), the vector field of `region`. The point need not lie in the region; where a formula
+    /// has no value there, entries are NaN or infinite. For an example see
+    /// [the guide](crate::guide#f-g-and-ψ-at-a-point).
+    fn vector_field(&self, region: Self::Region, t: f64, x: &Vector<f64, N>) -> Vector<f64, N> {
+        self.visit(region, Field { t, x })
+    }
+
+    /// g(t, x), the switching function of an interface, by its index in [`Metadata::interfaces`];
+    /// nothing if there are not so many. For an example see
+    /// [the guide](crate::guide#f-g-and-ψ-at-a-point).
+    fn switching_function(&self, interface: usize, t: f64, x: &Vector<f64, N>) -> Option<f64> {
+        if interface >= self.metadata().interfaces.len() {
+            return None;
+        }
+        // it is the same function in every region
+        let region = self.region(0)?;
+        Some(self.visit(region, Switching { interface, t, x }))
+    }
+}
+
+/// f(t, x)
+struct Field<'a, const N: usize> {
+    t: f64,
+    x: &'a Vector<f64, N>,
+}
+
+impl<const N: usize> DynamicsVisitor<N> for Field<'_, N> {
+    type Output = Vector<f64, N>;
+
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> Vector<f64, N> {
+        dynamics.vector_field(self.t, self.x)
+    }
+}
+
+/// g(t, x)
+struct Switching<'a, const N: usize> {
+    interface: usize,
+    t: f64,
+    x: &'a Vector<f64, N>,
+}
+
+impl<const N: usize> DynamicsVisitor<N> for Switching<'_, N> {
+    type Output = f64;
+
+    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> f64 {
+        let guards = dynamics.guards();
+        guards.switching_function(self.interface, self.t, self.x)
     }
 }
 

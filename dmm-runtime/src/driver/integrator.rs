@@ -6,10 +6,10 @@ use super::Recording;
 use super::conditions::check_conditions;
 use super::run::Run;
 use super::start::{Start, check_region, find_region};
-use crate::contract::{System, Vector};
-use crate::error::{Error, invalid, number};
+use crate::contract::{InitialState, System, Vector};
+use crate::error::{Error, ErrorKind, invalid, number};
 use crate::method::Method;
-use crate::output::{End, Halted, Interrupted, Observer, Point, Solution};
+use crate::output::{End, EndedBy, Halted, Interrupted, Observer, Point, Solution};
 
 /// Beyond it products of times overflow.
 const LARGEST_TIME: f64 = 1e250;
@@ -52,20 +52,20 @@ impl<'a, Sys, Met: Method> Integrator<'a, Sys, Met> {
         Self { system, method }
     }
 
-    /// The initial value x(t₀) = x₀.
+    /// The initial value x(t₀) = x₀: an array, a vector or a slice, see [`InitialState`].
     #[must_use]
     pub fn initial<const N: usize>(
         self,
         t0: f64,
-        x0: impl Into<Vector<f64, N>>,
+        x0: impl InitialState<Sys, N>,
     ) -> InitialValueProblem<'a, Sys, Met, N>
     where
         Sys: System<N>,
     {
         InitialValueProblem {
-            integrator: self,
             t0,
-            x0: x0.into(),
+            x0: x0.into_state(self.system),
+            integrator: self,
             region: None,
         }
     }
@@ -76,8 +76,9 @@ impl<'a, Sys, Met: Method> Integrator<'a, Sys, Met> {
 pub struct InitialValueProblem<'a, Sys: System<N>, Met, const N: usize> {
     pub(crate) integrator: Integrator<'a, Sys, Met>,
     pub(crate) t0: f64,
-    pub(crate) x0: Vector<f64, N>,
-    region: Option<Sys::Region>,
+    /// A slice of the wrong length is refused when the run starts.
+    pub(crate) x0: Result<Vector<f64, N>, Error>,
+    pub(crate) region: Option<Sys::Region>,
 }
 
 impl<'a, Sys, Met, const N: usize> InitialValueProblem<'a, Sys, Met, N>
@@ -87,6 +88,33 @@ where
 {
     /// Names the region to start in. Only a start on an interface from which both vector
     /// fields lead away needs it; elsewhere it is checked.
+    ///
+    /// A run is started again from a transition point with the region that was entered, whatever
+    /// sign rounding has left of g there:
+    ///
+    /// ```
+    /// use dmm_runtime::{Best, Integrator, pws};
+    ///
+    /// pws! {
+    ///     /// A ball between two springs.
+    ///     pub system Ball {
+    ///         state x, v;
+    ///         interface spring = x;
+    ///         region free where spring > 0 { der(x) = v; der(v) = -1; }
+    ///         region pressed where spring < 0 { der(x) = v; der(v) = -1 - 4*x; }
+    ///     }
+    /// }
+    ///
+    /// let from = |t, x| Integrator::new(&Ball {}, Best::tolerance(1e-12)).initial(t, x);
+    /// let whole = from(0.0, [1.0, 0.0].into()).run_until(20.0)?;
+    /// for transition in whole.transitions() {
+    ///     let rest = from(transition.t, transition.x).region(transition.to).run_until(20.0)?;
+    ///     let after = whole.transitions().iter().filter(|other| other.t > transition.t).count();
+    ///     assert_eq!(rest.transitions().len(), after);
+    ///     assert!((rest.at(20.0)? - whole.at(20.0)?).norm() < 1e-12);
+    /// }
+    /// # Ok::<(), dmm_runtime::Error>(())
+    /// ```
     #[must_use]
     pub fn region(self, region: Sys::Region) -> Self {
         Self {
@@ -95,7 +123,7 @@ where
         }
     }
 
-    /// Keeps the ends of every `every`-th step only (default 1, at least 1); the start, the
+    /// Keeps the ends of every `every`-th step only (default 1; 0 is refused); the start, the
     /// end and both sides of each transition are always kept.
     #[must_use]
     pub fn every(self, every: u64) -> Recording<'a, Sys, Met, N> {
@@ -109,11 +137,30 @@ where
         Recording::new(self).output_times(times)
     }
 
+    /// Limits the memory for points and transitions, in bytes; see [`Recording::memory_limit`].
+    #[must_use]
+    pub fn memory_limit(self, bytes: usize) -> Recording<'a, Sys, Met, N> {
+        Recording::new(self).memory_limit(bytes)
+    }
+
+    /// Tells `observer` of the run whose trajectory is kept; see [`Recording::observer`].
+    #[must_use]
+    pub fn observer<Obs: Observer<Sys::Region, N>>(
+        self,
+        observer: Obs,
+    ) -> Recording<'a, Sys, Met, N, Obs> {
+        Recording::observed(self, observer)
+    }
+
     /// Integrates until `t_end` and returns the trajectory, with the end of every step.
     ///
+    /// It is kept in memory, 1 GiB of it at most ([`Recording::memory_limit`]). Of a long run keep
+    /// a part by [`every`](Self::every) or [`output_times`](Self::output_times), or watch it in
+    /// constant memory by [`observe_until`](Self::observe_until).
+    ///
     /// # Errors
-    /// Bad input, or whatever stopped the integration; the error carries the solution up to
-    /// there.
+    /// Bad input, or whatever stopped the integration, the limit of memory among it; the error
+    /// carries the solution up to there.
     pub fn run_until(self, t_end: f64) -> Result<Solution<Sys, Met, N>, Interrupted<Sys, Met, N>> {
         Recording::new(self).run_until(t_end)
     }
@@ -129,10 +176,10 @@ where
         t_end: f64,
         observer: &mut Obs,
     ) -> Result<End<Sys::Region, N>, Halted<Sys::Region, N>> {
-        let start = self.start(t_end).map_err(Halted::at_start)?;
+        let (x0, start) = self.start(t_end).map_err(Halted::at_start)?;
         let Integrator { system, method } = &self.integrator;
         let system = *system;
-        let mut run = Run::<Sys, Met, N>::new((system, method), (self.t0, self.x0), start, t_end);
+        let mut run = Run::<Sys, Met, N>::new((system, method), (self.t0, x0), start, t_end);
         while let Some(t) = observer.next_output()
             && t <= self.t0
         {
@@ -140,35 +187,31 @@ where
         }
         let result = match observer.point(&run.point()) {
             ControlFlow::Continue(()) => run.run_until(system, method, t_end, observer),
-            ControlFlow::Break(()) => Ok(()),
+            ControlFlow::Break(()) => Ok(EndedBy::Observer),
         };
-        let end = run.end();
         match result {
-            Ok(()) => Ok(end),
-            Err(error) => Err(Halted::new(error, end)),
+            Ok(ended_by) => Ok(run.end(ended_by)),
+            Err(error) => Err(Halted::new(error, run.end(EndedBy::Error))),
         }
     }
 
-    /// The region to start in, after all input is checked.
-    pub(crate) fn start(&self, t_end: f64) -> Result<Start<Sys::Region>, Error> {
-        self.check_input(t_end)?;
-        let system = self.integrator.system;
+    /// The state and the region to start in, after all input is checked.
+    pub(crate) fn start(&self, t_end: f64) -> Result<(Vector<f64, N>, Start<Sys::Region>), Error> {
+        let Integrator { system, method } = &self.integrator;
+        method.check(self.t0, t_end)?;
+        check_times(self.t0, t_end)?;
+        let x0 = self.x0.clone()?;
+        check_values(*system, &x0)?;
         let start = match self.region {
-            Some(region) => check_region(system, region, self.t0, &self.x0),
-            None => find_region(system, None, self.t0, &self.x0),
+            Some(region) => check_region(*system, region, (self.t0, t_end), &x0),
+            None => find_region(*system, None, self.t0, &x0),
         }?;
-        check_conditions(system, start.region, self.t0, &self.x0)?;
-        Ok(start)
+        check_conditions(*system, start.region, self.t0, &x0)?;
+        Ok((x0, start))
     }
 
     pub(crate) fn memory(&self, t_end: f64) -> Met::Memory<N> {
         self.integrator.method.memory(self.t0, t_end)
-    }
-
-    fn check_input(&self, t_end: f64) -> Result<(), Error> {
-        self.integrator.method.check(self.t0, t_end)?;
-        check_times(self.t0, t_end)?;
-        check_values(self.integrator.system, &self.x0)
     }
 }
 
@@ -177,12 +220,11 @@ pub(super) fn check_times(t0: f64, t_end: f64) -> Result<(), Error> {
     if !t0.is_finite() {
         return invalid("initial time", number(t0), "must be finite");
     }
-    if !(t_end.is_finite() && t_end >= t0) {
-        return invalid(
-            "end time",
-            number(t_end),
-            "must be finite and not before the initial time",
-        );
+    if !t_end.is_finite() {
+        return invalid("end time", number(t_end), "must be finite");
+    }
+    if t_end < t0 {
+        return Err(ErrorKind::BackwardTime { t0, t_end }.into());
     }
     if t0.abs().max(t_end.abs()) > LARGEST_TIME {
         return invalid(
@@ -200,6 +242,9 @@ pub(super) fn check_values<Sys: System<N>, const N: usize>(
     x0: &Vector<f64, N>,
 ) -> Result<(), Error> {
     let names = system.metadata();
+    if let Some(refusal) = system.refusal() {
+        return invalid("system", format!("{} backwards", names.name), refusal);
+    }
     if let Some(i) = (0..N).find(|&i| !x0[i].is_finite()) {
         return invalid(
             "initial state",

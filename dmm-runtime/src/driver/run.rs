@@ -18,7 +18,7 @@ use crate::arithmetic::{State, Time};
 use crate::contract::{System, Vector};
 use crate::error::Error;
 use crate::method::{Cursor, Ended, Failure, Method, Observed, Silent, Statistics};
-use crate::output::{End, Observer, Point, Transition};
+use crate::output::{End, EndedBy, Observer, Point, Transition};
 
 /// An integration under way.
 #[derive(Clone, Debug)]
@@ -76,11 +76,12 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
     }
 
     /// Where it is, with what was done.
-    pub(crate) fn end(&self) -> End<Sys::Region, N> {
+    pub(crate) fn end(&self, ended_by: EndedBy) -> End<Sys::Region, N> {
         End {
             point: self.point(),
             remainder: self.cursor.state.remainder,
             statistics: self.statistics,
+            ended_by,
         }
     }
 
@@ -91,20 +92,21 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         method: &Met,
         until: f64,
         observer: &mut Obs,
-    ) -> Result<(), Error> {
+    ) -> Result<EndedBy, Error> {
         loop {
-            let ended = self.segment(system, method, until, observer)?;
-            let Ended::AtGuard { guard, rate } = ended else {
-                return Ok(());
+            let (guard, rate) = match self.segment(system, method, until, observer)? {
+                Ended::Finished => return Ok(EndedBy::EndTime),
+                Ended::Stopped => return Ok(EndedBy::Observer),
+                Ended::AtGuard { guard, rate } => (guard, rate),
             };
             if observer.point(&self.point()).is_break() {
-                return Ok(());
+                return Ok(EndedBy::Observer);
             }
             let transition = self.next_mode((system, method), guard, rate)?;
             if transition.is_some_and(|transition| observer.transition(&transition).is_break())
                 || observer.point(&self.point()).is_break()
             {
-                return Ok(());
+                return Ok(EndedBy::Observer);
             }
         }
     }

@@ -4,6 +4,12 @@
 //! rates dg/dt = ∂ₜg + ∇g·f of both sides do: both up or both down is the region that they
 //! lead into; both inwards would slide; both outwards has two solutions, and the caller has
 //! to name the region. On several of them see the module `around`.
+//!
+//! A region that is named is taken at its word also next to an interface: where g has the sign of the
+//! other side, but the field of the region named brings the solution to the interface within a time
+//! that rounding takes from the times of the run, |g/ġ| ≤ ε max(|t₀|, |t_end|), the start is on the
+//! interface. So a run starts again at a transition point, on whichever side of the interface rounding
+//! has left it.
 
 use super::around::Around;
 use super::events::with_clocks;
@@ -35,13 +41,14 @@ pub(crate) fn find_region<Sys: System<N>, const N: usize>(
     Ok(Start { region, on })
 }
 
-/// Checks a region that the caller named against the signs at (t, x).
+/// Checks a region that the caller named against the signs at (t, x), in a run until `t_end`.
 pub(crate) fn check_region<Sys: System<N>, const N: usize>(
     system: &Sys,
     region: Sys::Region,
-    t: f64,
+    (t, t_end): (f64, f64),
     x: &Vector<f64, N>,
 ) -> Result<Start<Sys::Region>, Error> {
+    let moment = f64::EPSILON * t.abs().max(t_end.abs());
     let region = with_clocks(system, region, t, x)?;
     let mut on = Active::default();
     for interface in 0..system.metadata().interfaces.len() {
@@ -49,8 +56,9 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
             continue;
         };
         let reading = Reading::new(system, region, interface, t, x);
-        if reading.is_zero() {
-            if side.sign() * reading.rate <= 0.0 {
+        let (value, rate) = (side.sign() * reading.value, side.sign() * reading.rate);
+        if reading.is_zero() || value < 0.0 && -value <= moment * rate {
+            if rate <= 0.0 {
                 return Err(ErrorKind::InvalidInput {
                     what: "region",
                     value: system.of_region(region).name.to_owned(),
@@ -59,7 +67,7 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
                 }.into());
             }
             on.insert(interface);
-        } else if side.sign() * reading.value < 0.0 || reading.value.is_nan() {
+        } else if value < 0.0 || value.is_nan() {
             return Err(ErrorKind::InvalidInput {
                 what: "region",
                 value: system.of_region(region).name.to_owned(),

@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use super::conditions::check_conditions;
 use super::integrator::{InitialValueProblem, check_times, check_values};
 use super::run::Run;
-use super::start::find_region;
+use super::start::{check_region, find_region};
 use crate::arithmetic::State;
-use crate::contract::{System, Vector};
-use crate::error::Error;
+use crate::contract::{InitialState, System, Vector};
+use crate::error::{Error, invalid, number};
 use crate::method::{Cursor, Ended, Method, Statistics};
 use crate::output::{Observer, Point, Transition};
 
@@ -90,13 +90,13 @@ impl<Sys: System<N>, Met: Method, const N: usize> InitialValueProblem<'_, Sys, M
     /// # Errors
     /// Bad input.
     pub fn stepper(self, t_end: f64) -> Result<Stepper<Sys, Met, N>, Error> {
-        let start = self.start(t_end)?;
+        let (x0, start) = self.start(t_end)?;
         let (system, method) = (
             self.integrator.system.clone(),
             self.integrator.method.clone(),
         );
         Ok(Stepper {
-            run: Run::new((&system, &method), (self.t0, self.x0), start, t_end),
+            run: Run::new((&system, &method), (self.t0, x0), start, t_end),
             system,
             method,
             t_end,
@@ -151,6 +151,37 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
         &mut self,
         change: impl FnOnce(&mut Sys, &mut Vector<f64, N>),
     ) -> Result<(), Error> {
+        self.start_again(None, change)
+    }
+
+    /// Sets the state; see [`Stepper::change`].
+    ///
+    /// # Errors
+    /// A start that is not possible, or a slice of the wrong length; the stepper is as it was.
+    pub fn set_state(&mut self, x: impl InitialState<Sys, N>) -> Result<(), Error> {
+        let x = x.into_state(&self.system)?;
+        self.start_again(None, |_, state| *state = x)
+    }
+
+    /// Sets the state and names its region, as [`InitialValueProblem::region`] does.
+    ///
+    /// # Errors
+    /// As of [`Stepper::set_state`], and a state that does not lie in the region.
+    pub fn set_state_in(
+        &mut self,
+        region: Sys::Region,
+        x: impl InitialState<Sys, N>,
+    ) -> Result<(), Error> {
+        let x = x.into_state(&self.system)?;
+        self.start_again(Some(region), |_, state| *state = x)
+    }
+
+    /// A new start from here, after a change.
+    fn start_again(
+        &mut self,
+        region: Option<Sys::Region>,
+        change: impl FnOnce(&mut Sys, &mut Vector<f64, N>),
+    ) -> Result<(), Error> {
         let mut system = self.system.clone();
         let Cursor {
             time, mut state, ..
@@ -163,7 +194,10 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
         }
         let t = time.value;
         check_values(&system, &x)?;
-        let start = find_region(&system, Some(self.run.region), t, &x)?;
+        let start = match region {
+            Some(region) => check_region(&system, region, (t, self.t_end), &x),
+            None => find_region(&system, Some(self.run.region), t, &x),
+        }?;
         check_conditions(&system, start.region, t, &x)?;
         let cursor = Cursor::new(time, state, 0, start.on);
         let memory = self.method.memory(t, self.t_end);
@@ -184,6 +218,13 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
     /// An end time that is not finite, or too early.
     pub fn extend(&mut self, t_end: f64) -> Result<(), Error> {
         let t = self.run.cursor.time.value;
+        if t_end < t {
+            return invalid(
+                "end time",
+                number(t_end),
+                "must not be before the present time",
+            );
+        }
         check_times(t, t_end)?;
         self.method.check(t, t_end)?;
         self.t_end = t_end;

@@ -9,7 +9,7 @@ use super::run::{
     Record, Start,
 };
 use crate::arithmetic::{Time, Vector};
-use crate::contract::{Dynamics, DynamicsVisitor, Guards, Metadata, System};
+use crate::contract::{Dynamics, DynamicsVisitor, Metadata, System};
 use crate::driver::Integrator;
 use crate::ensemble::{Ensemble, Member};
 use crate::error::{Error, ErrorKind};
@@ -76,12 +76,6 @@ impl<Sys: System<N>, const N: usize> Erased<Sys, N> {
             x: self.slice(&end.point.x).to_vec(),
             statistics: end.statistics,
         }
-    }
-
-    /// What a function gives in a region; nothing if there is none.
-    fn in_region<V: DynamicsVisitor<N>>(&self, region: usize, visitor: V) -> Option<V::Output> {
-        let region = self.system.region(region)?;
-        Some(self.system.visit(region, visitor))
     }
 }
 
@@ -237,37 +231,6 @@ impl<const N: usize> DynamicsVisitor<N> for Conserved<'_, N> {
     }
 }
 
-/// f
-struct Field<const N: usize> {
-    t: f64,
-    x: Vector<f64, N>,
-}
-
-impl<const N: usize> DynamicsVisitor<N> for Field<N> {
-    type Output = Vector<f64, N>;
-
-    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> Vector<f64, N> {
-        dynamics.vector_field(self.t, &self.x)
-    }
-}
-
-/// g
-struct Switching<const N: usize> {
-    interface: usize,
-    t: f64,
-    x: Vector<f64, N>,
-}
-
-impl<const N: usize> DynamicsVisitor<N> for Switching<N> {
-    type Output = f64;
-
-    fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> f64 {
-        dynamics
-            .guards()
-            .switching_function(self.interface, self.t, &self.x)
-    }
-}
-
 /// Integrations from many starts.
 struct Together<'a, Sys, const N: usize> {
     erased: &'a Erased<Sys, N>,
@@ -347,15 +310,14 @@ impl<C: MethodChoice, Sys: System<N>, const N: usize> AnySystem<C> for Erased<Sy
     }
 
     fn vector_field(&self, region: usize, t: f64, x: &[f64]) -> Vec<f64> {
-        let x = self.vector(x);
-        let field = self.in_region(region, Field { t, x });
+        let region = self.system.region(region);
+        let field = region.map(|region| self.system.vector_field(region, t, &self.vector(x)));
         let field = field.map(|field| self.slice(&field).to_vec());
         field.unwrap_or_default()
     }
 
     fn switching_function(&self, interface: usize, t: f64, x: &[f64]) -> f64 {
-        let x = self.vector(x);
-        let value = self.in_region(0, Switching { interface, t, x });
+        let value = (self.system).switching_function(interface, t, &self.vector(x));
         value.unwrap_or(f64::NAN)
     }
 

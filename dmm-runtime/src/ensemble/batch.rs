@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::events::ends::Decay;
 use crate::method::taylor::Taylor;
 use crate::method::{Ended, Several};
-use crate::output::Halted;
+use crate::output::{EndedBy, Halted};
 
 /// What a queue waits for.
 #[derive(Clone, Copy, Debug)]
@@ -335,10 +335,10 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
     }
 
     fn finish(&mut self, number: usize, result: Result<(), Error>) {
-        let end = self.trajectories[number].end();
+        let trajectory = &self.trajectories[number];
         self.outcomes[self.members[number]] = Some(match result {
-            Ok(()) => Ok(end),
-            Err(error) => Err(Halted::new(error, end)),
+            Ok(()) => Ok(trajectory.end(EndedBy::EndTime)),
+            Err(error) => Err(Halted::new(error, trajectory.end(EndedBy::Error))),
         });
     }
 }

@@ -14,8 +14,9 @@ mod vectorised;
 use std::ops::ControlFlow;
 use std::thread;
 
-use crate::contract::{Dynamics, DynamicsVisitor, Guards, System, Vector};
+use crate::contract::{Dynamics, DynamicsVisitor, Guards, InitialState, System, Vector};
 use crate::driver::{InitialValueProblem, Integrator};
+use crate::error::Error;
 use crate::method::Method;
 use crate::method::taylor::Taylor;
 use crate::output::Observer;
@@ -35,25 +36,34 @@ pub struct Member<Sys: System<N>, const N: usize> {
     pub x0: Vector<f64, N>,
     /// The region to start in, if it has to be named.
     pub region: Option<Sys::Region>,
+    /// Why x₀ was refused, if it was.
+    refused: Option<Error>,
 }
 
 impl<Sys: System<N>, const N: usize> Member<Sys, N> {
-    /// The initial value x(t₀) = x₀ of a system.
-    pub fn new(system: Sys, t0: f64, x0: impl Into<Vector<f64, N>>) -> Self {
+    /// The initial value x(t₀) = x₀ of a system: an array, a vector or a slice, see
+    /// [`InitialState`]. The outcome of a member with a slice of the wrong length is that error.
+    pub fn new(system: Sys, t0: f64, x0: impl InitialState<Sys, N>) -> Self {
+        let (x0, refused) = match x0.into_state(&system) {
+            Ok(x0) => (x0, None),
+            Err(error) => (Vector::from_element(f64::NAN), Some(error)),
+        };
         Self {
             system,
             t0,
-            x0: x0.into(),
+            x0,
             region: None,
+            refused,
         }
     }
 
     fn problem<Met: Method>(&self, method: Met) -> InitialValueProblem<'_, Sys, Met, N> {
-        let problem = Integrator::new(&self.system, method).initial(self.t0, self.x0);
-        match self.region {
-            Some(region) => problem.region(region),
-            None => problem,
+        let mut problem = Integrator::new(&self.system, method).initial(self.t0, self.x0);
+        problem.region = self.region;
+        if let Some(error) = &self.refused {
+            problem.x0 = Err(error.clone());
         }
+        problem
     }
 }
 
@@ -137,7 +147,8 @@ impl<Met: Method> Ensemble<Met> {
         }
     }
 
-    /// The number of threads (default: one for each core that the process may use).
+    /// The number of threads (default: one for each core that the process may use; always one in
+    /// WebAssembly).
     #[must_use]
     pub fn threads(self, threads: usize) -> Self {
         Self {
@@ -245,6 +256,12 @@ impl<Met: Method> Ensemble<Met> {
         const LARGEST: usize = 256;
         let cores = || thread::available_parallelism().map_or(1, usize::from);
         let threads = self.threads.unwrap_or_else(cores);
+        // a thread cannot be started there
+        let threads = if cfg!(target_family = "wasm") {
+            1
+        } else {
+            threads
+        };
         let count = most.map_or(usize::MAX, |most| most.max(least));
         Pool {
             threads: threads.min(count.div_ceil(smallest)),

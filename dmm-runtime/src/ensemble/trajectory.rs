@@ -8,7 +8,7 @@ use crate::driver::{Accumulation, Run, enter};
 use crate::error::Error;
 use crate::method::taylor::{self, Taylor};
 use crate::method::{Active, Cursor, Ended, Statistics};
-use crate::output::{End, Halted, Point};
+use crate::output::{End, EndedBy, Halted, Point};
 
 /// A crossing that is still to be judged.
 #[derive(Clone, Copy, Debug)]
@@ -55,10 +55,10 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         t_end: f64,
     ) -> Result<Self, Halted<Sys::Region, N>> {
         let problem = member.problem(method);
-        let start = problem.start(t_end).map_err(Halted::at_start)?;
+        let (x0, start) = problem.start(t_end).map_err(Halted::at_start)?;
         Ok(Self {
             time: Time::new(member.t0),
-            state: State::new(member.x0),
+            state: State::new(x0),
             region: start.region,
             active: start.on,
             crossing: None,
@@ -76,7 +76,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     /// Where it is.
-    pub(super) fn end(&self) -> End<Sys::Region, N> {
+    pub(super) fn end(&self, ended_by: EndedBy) -> End<Sys::Region, N> {
         End {
             point: Point {
                 t: self.time.value,
@@ -86,6 +86,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             },
             remainder: self.state.remainder,
             statistics: self.statistics,
+            ended_by,
         }
     }
 

@@ -4,6 +4,7 @@ use std::ops::AddAssign;
 
 /// Counters of an integration.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Statistics {
     /// Steps accepted, partial steps to and from an interface included.

@@ -16,6 +16,19 @@ pub struct End<R, const N: usize> {
     pub remainder: Vector<f64, N>,
     /// What was done.
     pub statistics: Statistics,
+    /// What ended it.
+    pub ended_by: EndedBy,
+}
+
+/// What ended an integration, or halted it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum EndedBy {
+    /// The end time was reached.
+    EndTime,
+    /// An observer returned `Break`.
+    Observer,
+    /// An error, which is returned beside it.
+    Error,
 }
 
 /// An observed integration that stopped before its end time, with the end that it reached.
@@ -80,12 +93,15 @@ impl<R, const N: usize> From<Halted<R, N>> for Error {
     }
 }
 
+/// As [`Error`].
 impl<R, const N: usize> fmt::Debug for Halted<R, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Halted")
-            .field("error", &self.error)
-            .field("t", &self.end.as_ref().map(|end| end.point.t))
-            .finish_non_exhaustive()
+        self.error.fmt_as_text_or(f, |f| {
+            f.debug_struct("Halted")
+                .field("error", &self.error)
+                .field("t", &self.end.as_ref().map(|end| end.point.t))
+                .finish_non_exhaustive()
+        })
     }
 }
 

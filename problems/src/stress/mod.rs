@@ -230,7 +230,8 @@ pub fn kind_of(error: &Error) -> &'static str {
     match error.kind {
         ErrorKind::InvalidInput { .. } => "invalid input",
         ErrorKind::NewtonFailed { .. } => "Newton failed",
-        ErrorKind::LeftDomain => "left the domain",
+        ErrorKind::LeftDomain | ErrorKind::Undefined { .. } => "left the domain",
+        ErrorKind::Overflow => "overflow",
         ErrorKind::Sliding { .. } => "sliding",
         ErrorKind::Tangential { .. } => "tangential",
         ErrorKind::Ambiguous { .. } => "ambiguous start",

@@ -49,7 +49,7 @@ fn no_point_is_ever_not_finite() {
     let interrupted = start(&Growing::default(), 0.01, [1.0])
         .run_until(100.0)
         .unwrap_err();
-    assert!(matches!(interrupted.error().kind, ErrorKind::LeftDomain));
+    assert!(matches!(interrupted.error().kind, ErrorKind::Overflow));
     let solution = interrupted.solution();
     assert!(solution.points().iter().all(|point| point.x[0].is_finite()));
     assert_eq!(solution.points().last(), solution.last());
