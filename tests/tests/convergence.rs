@@ -2,7 +2,8 @@
 //! digits: each scheme's order everywhere, and order 1 where crossings are located with an
 //! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
 
-use dmm_problems::convergence::{Plan, Row, Study, fitted_order, study};
+use dmm_problems::convergence::{Plan, Row, Study, study};
+use dmm_problems::fit::fitted_order;
 use dmm_problems::method::MethodName;
 use dmm_problems::perturbed::Perturbed;
 use dmm_problems::registry::find;

@@ -6,7 +6,7 @@ use dmm_runtime::{
     OneStep, Statistics, Step, StepFailure, Symmetric, System, Taylor, Uniform, Vector, pws,
 };
 
-use super::{Extent, Observe, Row, Verdict, kind_of};
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
 use crate::picture::Panel;
 use crate::systems::Elliptic;
 

@@ -5,7 +5,8 @@
 use std::ops::ControlFlow;
 
 use super::growth::Growth;
-use super::{Extent, Observe, Row, Setting, Verdict, kind_of};
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::setting::Setting;
 use crate::method::MethodName;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Problem, Record, Run};

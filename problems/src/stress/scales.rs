@@ -4,8 +4,9 @@
 //! −q³ it moves s times as fast, and ψ is s⁴ times as large; below s = 10⁻⁷⁰ it would be lost to
 //! underflow.
 
+use super::report::{Extent, Observe, Row, Verdict};
+use super::setting::{SETTINGS, Setting};
 use super::systems::{circle, quartic};
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::picture::Panel;
 use crate::problem::{AnyObserver, OutputTimes, Problem, Run};
 use dmm_runtime::Error;
@@ -64,7 +65,7 @@ fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
     for decade in (first..=last).step_by(stride) {
         match scaled(case, setting, decade) {
             Ok(state) => worst = worst.max(distance(&state, &plain)),
-            Err(error) => refused.push((decade, super::kind_of(&error))),
+            Err(error) => refused.push((decade, super::report::kind_of(&error))),
         }
     }
     let mut finding = format!("the same to {worst:.1e}");

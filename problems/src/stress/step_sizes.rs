@@ -1,7 +1,8 @@
 //! Step sizes from the limit of stability to 10⁻⁹: as long as a step has a solution, ψ keeps
 //! its level; when it has none any more, that is said.
 
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::setting::{SETTINGS, Setting};
 use crate::conservation::{Conservation, measure};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::Run;

@@ -4,7 +4,8 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::ops::ControlFlow;
 
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
+use super::report::{Extent, Observe, Row, Verdict};
+use super::setting::{SETTINGS, Setting};
 use crate::method::Control;
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Run};

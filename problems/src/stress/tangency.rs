@@ -11,8 +11,9 @@ use std::ops::ControlFlow;
 use dmm_runtime::{Error, ErrorKind};
 use num_rational::BigRational;
 
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::setting::{SETTINGS, Setting};
 use super::systems::{circle, quartic};
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Problem, Run};
 

@@ -11,8 +11,9 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use super::growth::Growth;
+use super::report::{Extent, Observe, Row, Verdict};
+use super::setting::{SETTINGS, Setting};
 use super::systems::warped;
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Problem, Record, Run};
 use crate::reference::Reference;

@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, fitted_order, norms};
+use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, norms};
+use dmm_problems::fit::fitted_order;
 use dmm_problems::method::{Control, MethodName};
 use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;

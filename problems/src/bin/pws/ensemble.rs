@@ -1,5 +1,6 @@
 //! `pws ensemble PROBLEM`: from many initial states and parameters to where they end.
 
+mod cells;
 mod members;
 #[cfg(feature = "parquet")]
 mod parquet;

@@ -6,15 +6,15 @@
 
 mod conserved;
 mod orders;
+mod report;
 mod trajectories;
 
 use std::path::PathBuf;
 
-use dmm_problems::picture::Format;
-
 use crate::failure::Failure;
 use crate::input::FormatOption;
 use crate::output::{self, Csv, Table};
+use report::{Report, SYSTEMS};
 
 /// Where to.
 #[derive(clap::Args)]
@@ -25,30 +25,6 @@ pub(crate) struct Arguments {
     /// How pictures are stored.
     #[arg(long, value_enum, default_value = "svg")]
     format: FormatOption,
-}
-
-/// The two systems of the paper, with the numbers of their figures: crossing times, states,
-/// conserved quantity.
-const SYSTEMS: [(&str, [u32; 3]); 2] = [("harmonic", [3, 4, 5]), ("elliptic", [6, 7, 8])];
-
-/// Where the results go, and what is said about them in the end.
-struct Report {
-    out: PathBuf,
-    format: Format,
-    files: Vec<PathBuf>,
-    rows: Vec<[String; 4]>,
-}
-
-impl Report {
-    /// A line of the table paper / ours.
-    fn row(&mut self, figure: u32, what: impl Into<String>, paper: &str, ours: impl Into<String>) {
-        self.rows.push([
-            format!("Fig. {figure}"),
-            what.into(),
-            paper.to_owned(),
-            ours.into(),
-        ]);
-    }
 }
 
 /// Makes all figures.

@@ -8,8 +8,9 @@ use std::path::PathBuf;
 use dmm_problems::problem::{Arrival, MemberOutcome, Problem, Run, Start};
 use indicatif::ProgressBar;
 
+use super::cells::{Cell, Column, Kind};
 use super::members::Row;
-use super::table::{Cell, Column, Kind, Table};
+use super::table::Table;
 use crate::failure::Failure;
 use crate::output;
 use crate::progress;

@@ -8,7 +8,7 @@ use dmm_problems::picture::Picture;
 use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 use dmm_problems::reference::Reference;
 
-use super::Report;
+use super::report::Report;
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{self, Csv};

@@ -6,7 +6,7 @@ use dmm_problems::perturbed::Perturbed;
 use dmm_problems::picture::{COLOURS, Panel, Picture, Stroke};
 use dmm_problems::problem::Problem;
 
-use super::Report;
+use super::report::Report;
 use crate::converge::{self, axes, curve, halved, quantities};
 use crate::failure::Failure;
 use crate::input;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use dmm_problems::picture::Picture;
 use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 
-use super::{Report, SYSTEMS};
+use super::report::{Report, SYSTEMS};
 use crate::failure::Failure;
 use crate::input;
 use crate::output::{self, Csv};

@@ -1,0 +1,114 @@
+//! What a study tells: cases, and what became of each.
+
+use dmm_runtime::{Error, ErrorKind};
+
+/// How a case ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// It was integrated, within the bounds.
+    Survived,
+    /// It was stopped by a typed error, or told as undecided.
+    Refused,
+    /// It was integrated beyond the bounds, and nothing was said.
+    Wrong,
+}
+
+impl Verdict {
+    /// [`Verdict::Survived`] or [`Verdict::Wrong`].
+    pub fn within(bounds: bool) -> Self {
+        if bounds { Self::Survived } else { Self::Wrong }
+    }
+
+    /// In a word.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Survived => "survived",
+            Self::Refused => "refused",
+            Self::Wrong => "WRONG",
+        }
+    }
+}
+
+/// A case and what became of it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Row {
+    /// What was integrated.
+    pub case: String,
+    /// By which scheme.
+    pub scheme: String,
+    /// How it ended.
+    pub verdict: Verdict,
+    /// The figures.
+    pub finding: String,
+}
+
+impl Row {
+    /// A case by a scheme, how it ended, and its figures.
+    pub fn new(
+        case: impl Into<String>,
+        scheme: impl Into<String>,
+        verdict: Verdict,
+        finding: impl Into<String>,
+    ) -> Self {
+        Self {
+            case: case.into(),
+            scheme: scheme.into(),
+            verdict,
+            finding: finding.into(),
+        }
+    }
+
+    /// A run that was stopped.
+    pub(super) fn refused(
+        case: impl Into<String>,
+        scheme: impl Into<String>,
+        error: &Error,
+    ) -> Self {
+        Self::new(case, scheme, Verdict::Refused, kind_of(error))
+    }
+}
+
+/// How much is done.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Extent {
+    /// Everything.
+    Full,
+    /// The same in a few seconds.
+    Brief,
+}
+
+impl Extent {
+    /// A number that depends on it.
+    pub fn of<T>(self, full: T, brief: T) -> T {
+        match self {
+            Self::Full => full,
+            Self::Brief => brief,
+        }
+    }
+}
+
+/// Follows a study.
+pub trait Observe {
+    /// A case begins.
+    fn begins(&mut self, case: &str);
+    /// A case has ended.
+    fn ended(&mut self, row: Row);
+}
+
+/// The kind of an error, in a few words.
+pub fn kind_of(error: &Error) -> &'static str {
+    match error.kind {
+        ErrorKind::InvalidInput { .. } => "invalid input",
+        ErrorKind::NewtonFailed { .. } => "Newton failed",
+        ErrorKind::LeftDomain => "left the domain",
+        ErrorKind::Sliding { .. } => "sliding",
+        ErrorKind::Tangential { .. } => "tangential",
+        ErrorKind::AmbiguousStart { .. } => "ambiguous start",
+        ErrorKind::NoRegion => "no region",
+        ErrorKind::LocationFailed { .. } => "location failed",
+        ErrorKind::Undecided { .. } => "undecided",
+        ErrorKind::Zeno { .. } => "Zeno",
+        ErrorKind::OutOfRange { .. } => "out of range",
+        _ => "other",
+    }
+}
