@@ -78,6 +78,8 @@ pub const STUDIES: [Study; 7] = [
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
     use super::*;
 
     #[derive(Default)]
@@ -87,8 +89,14 @@ mod tests {
     }
 
     impl Observe for Seen {
-        fn begins(&mut self, _case: &str) {
+        fn begins(&mut self, _case: &str) -> ControlFlow<()> {
             self.begun += 1;
+            ControlFlow::Continue(())
+        }
+
+        fn at(&mut self, share: f64) -> ControlFlow<()> {
+            assert!((0.0..=1.0).contains(&share), "{share}");
+            ControlFlow::Continue(())
         }
 
         fn ended(&mut self, row: Row) {

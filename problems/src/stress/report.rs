@@ -1,5 +1,7 @@
 //! What a study tells: cases, and what became of each.
 
+use std::ops::ControlFlow;
+
 use dmm_runtime::{Error, ErrorKind};
 
 /// How a case ended.
@@ -87,10 +89,16 @@ impl Extent {
     }
 }
 
-/// Follows a study.
+/// Follows a study, and says whether to go on; a case that is stopped has no row.
 pub trait Observe {
     /// A case begins.
-    fn begins(&mut self, case: &str);
+    fn begins(&mut self, _case: &str) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+    /// The share of the case that is done.
+    fn at(&mut self, _share: f64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
     /// A case has ended.
     fn ended(&mut self, row: Row);
 }

@@ -1,5 +1,7 @@
 //! Columns and cells of the table of results, whatever it is written as.
 
+use crate::output;
+
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Kind {
@@ -23,7 +25,7 @@ impl Cell {
         match self {
             Self::Missing => String::new(),
             Self::Count(count) => count.to_string(),
-            Self::Number(value) => value.to_string(),
+            Self::Number(value) => output::number(*value),
             Self::Text(text) => text.clone(),
         }
     }

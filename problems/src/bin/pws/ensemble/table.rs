@@ -19,7 +19,7 @@ pub(crate) enum Table {
 impl Table {
     /// A new file with these columns.
     pub(crate) fn create(path: PathBuf, columns: &[Column]) -> Result<Self, Failure> {
-        if path.extension().is_some_and(|one| one == "parquet") {
+        if path.extension().is_some_and(|ending| ending == "parquet") {
             return Self::parquet(path, columns);
         }
         Csv::create(path, columns.iter().map(|(name, _)| name))
