@@ -1,6 +1,6 @@
 //! Conservation on every problem, and the work that it takes.
 //!
-//! The long runs (a million steps each) are the command `pws conserve`; here are ten thousand
+//! The long runs (a million steps each) are `pws conserve --scheme symmetric`; here are ten thousand
 //! steps of each (of the largest chains, whose steps cost most, two thousand), with the same
 //! bounds.
 

@@ -24,6 +24,7 @@ mod portrait;
 mod progress;
 mod run;
 mod scheme;
+mod series;
 mod show;
 mod stress;
 

@@ -18,6 +18,7 @@ use crate::interrupt;
 use crate::output;
 use crate::portrait::{self, Trajectory};
 use crate::scheme::{self, SchemeOptions};
+use crate::series;
 use recorder::{Finished, Recorder};
 
 /// What to integrate.
@@ -155,8 +156,8 @@ fn pictures(
         plane,
         &format!("phase portrait{shown}"),
     );
-    let series = portrait::time_series(problem, kept, &format!("time series{shown}"));
-    let errors = portrait::errors(&finished.errors, "ψ − ψ at entry", "conservation error");
+    let series = series::time_series(problem, kept, &format!("time series{shown}"));
+    let errors = series::errors(&finished.errors, "ψ − ψ at entry", "conservation error");
     let wide = |panels| Picture {
         panel_size: (760.0, 330.0),
         columns: 1,

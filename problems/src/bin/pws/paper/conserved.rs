@@ -12,7 +12,7 @@ use super::report::Report;
 use crate::failure::Failure;
 use crate::input;
 use crate::output;
-use crate::portrait::{self, Thinned};
+use crate::series::{self, Thinned};
 
 /// As in the paper.
 const STEP_SIZE: f64 = 1e-3;
@@ -74,7 +74,7 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
             ),
         );
         let series = [(String::new(), errors.thinned.points().to_vec())];
-        panels.push(portrait::errors(&series, "ψ − exact level", long));
+        panels.push(series::errors(&series, "ψ − exact level", long));
     }
     report.out.add(csv.finish()?);
     let title = format!("Fig. {number}: error of the conserved quantity, τ = 0.001, {name}");

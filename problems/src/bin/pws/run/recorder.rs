@@ -8,8 +8,9 @@ use dmm_problems::problem::{AnyObserver, Crossed, OutputTimes, Problem, Record, 
 use crate::directory::Directory;
 use crate::failure::Failure;
 use crate::output::{self, Csv};
-use crate::portrait::{Kept, Thinned};
+use crate::portrait::Kept;
 use crate::progress::Progress;
+use crate::series::Thinned;
 
 /// The names of all conserved quantities of a problem: those of each region, once.
 fn conserved_names(problem: &Problem) -> Vec<&'static str> {
