@@ -7,6 +7,9 @@ use dmm_runtime::{Error, Statistics};
 use crate::problem::{AnyObserver, Problem, Record, Run};
 use crate::reference::Reference;
 
+/// Steps from one word of progress to the next.
+const TOLD: u64 = 1 << 10;
+
 /// What a run did to its conserved quantities.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Conservation {
@@ -25,14 +28,15 @@ impl Conservation {
     }
 }
 
-/// Makes the run and measures; `progress` is told of the time now and then.
+/// Makes the run and measures; `progress` is told of the time now and then, and says whether to go
+/// on.
 ///
 /// # Errors
 /// Whatever stops the integration.
 pub fn measure(
     problem: &Problem,
     run: &Run,
-    progress: &mut dyn FnMut(f64),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Conservation, Error> {
     let mut meter = Meter {
         exact: exact_levels(problem, run),
@@ -71,7 +75,7 @@ struct Meter<'a> {
     ulps: f64,
     level_error: f64,
     records: u64,
-    progress: &'a mut dyn FnMut(f64),
+    progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
 }
 
 impl AnyObserver for Meter<'_> {
@@ -90,8 +94,8 @@ impl AnyObserver for Meter<'_> {
             }
         }
         self.records += 1;
-        if self.records.is_multiple_of(1 << 15) {
-            (self.progress)(record.t);
+        if self.records.is_multiple_of(TOLD) {
+            return (self.progress)(record.t);
         }
         ControlFlow::Continue(())
     }

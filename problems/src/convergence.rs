@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use thiserror::Error;
 
 use crate::method::MethodName;
-use crate::problem::{AnyObserver, Crossed, OutputTimes, Problem, Run};
+use crate::problem::{AnyObserver, Crossed, OutputTimes, Problem, Record, Run};
 use crate::truth::{Origin, Truth, TruthError};
 
 /// Where in a segment the state is compared.
@@ -128,34 +128,15 @@ pub fn default_after(crossings_total: usize) -> Vec<usize> {
     after
 }
 
-/// The exponent p of the best fit e = c τᵖ, by least squares in the logarithms; NaN if there
-/// are fewer than two positive errors.
-pub fn fitted_order(step_sizes: &[f64], errors: &[f64]) -> f64 {
-    let points: Vec<(f64, f64)> = step_sizes
-        .iter()
-        .zip(errors)
-        .filter(|(_, error)| **error > 0.0)
-        .map(|(tau, error)| (tau.ln(), error.ln()))
-        .collect();
-    if points.len() < 2 {
-        return f64::NAN;
-    }
-    let count = points.len() as f64;
-    let mean_x = points.iter().map(|p| p.0).sum::<f64>() / count;
-    let mean_y = points.iter().map(|p| p.1).sum::<f64>() / count;
-    let covariance: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum();
-    let variance: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
-    covariance / variance
-}
-
-/// Makes the study; `progress` is told after each integration.
+/// Makes the study; `progress` is told the share of the work that is done, and says whether to go
+/// on: if not, the step sizes that are left are not in the study.
 ///
 /// # Errors
 /// [`StudyError`]
 pub fn study(
     problem: &Problem,
     plan: &Plan,
-    mut progress: impl FnMut(),
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Study, StudyError> {
     let wanted = plan.after.iter().copied().max().unwrap_or_default();
     let truth = Truth::of(problem, &plan.initial, wanted + 1, plan.t_end)?;
@@ -203,6 +184,9 @@ pub fn study(
         })
         .fold(0.0, f64::max);
     let mut stopped = Vec::new();
+    let mut step_sizes = Vec::new();
+    let steps = |step_sizes: &[f64]| step_sizes.iter().map(|tau| 1.0 / tau).sum::<f64>();
+    let total = steps(&plan.step_sizes);
     for &step_size in &plan.step_sizes {
         let run = Run {
             method: plan.method,
@@ -217,7 +201,15 @@ pub fn study(
             output_times: OutputTimes::At(times.clone()),
             ..problem.default_run()
         };
-        let mut collector = Collector::default();
+        let done = steps(&step_sizes) / total;
+        let share = 1.0 / step_size / total;
+        let mut collector = Collector {
+            crossings: Vec::new(),
+            states: Vec::new(),
+            records: 0,
+            is_stopped: false,
+            progress: &mut |t| progress(done + share * t / run.t_end),
+        };
         match problem.integrate(&run, &mut collector) {
             Ok(_) => {}
             Err(error) if matches!(error.kind, ErrorKind::InvalidInput { .. }) => {
@@ -228,11 +220,14 @@ pub fn study(
                 error: Box::new(error),
             }),
         }
+        if collector.is_stopped {
+            break;
+        }
         collector.add_to(&mut rows, &exact);
-        progress();
+        step_sizes.push(step_size);
     }
     Ok(Study {
-        step_sizes: plan.step_sizes.clone(),
+        step_sizes,
         origin: truth.origin,
         rows,
         stopped,
@@ -250,13 +245,28 @@ fn sample_time(truth: &Truth, transitions: usize, t_end: f64) -> f64 {
 }
 
 /// Crossing times and the states at the output times of a run.
-#[derive(Default)]
-struct Collector {
+struct Collector<'a> {
     crossings: Vec<f64>,
     states: Vec<Vec<f64>>,
+    records: u64,
+    is_stopped: bool,
+    progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
 }
 
-impl AnyObserver for Collector {
+/// Steps from one word of progress to the next.
+const TOLD: u64 = 1 << 10;
+
+impl AnyObserver for Collector<'_> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.records += 1;
+        if !self.records.is_multiple_of(TOLD) {
+            return ControlFlow::Continue(());
+        }
+        let flow = (self.progress)(record.t);
+        self.is_stopped = flow.is_break();
+        flow
+    }
+
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
         self.crossings.push(crossed.t);
         ControlFlow::Continue(())
@@ -265,13 +275,9 @@ impl AnyObserver for Collector {
     fn output(&mut self, _t: f64, x: &[f64]) {
         self.states.push(x.to_vec());
     }
-
-    fn wants_records(&self) -> bool {
-        false
-    }
 }
 
-impl Collector {
+impl Collector<'_> {
     /// Appends this run's errors to each row; what the run did not reach is NaN.
     fn add_to(&self, rows: &mut [Row], exact: &[Vec<f64>]) {
         for (i, (row, exact)) in rows.iter_mut().zip(exact).enumerate() {
@@ -292,14 +298,6 @@ impl Collector {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_fitted_order_of_a_power_is_its_exponent() {
-        let step_sizes: Vec<f64> = (4..10).map(|k| 0.5f64.powi(k)).collect();
-        let errors: Vec<f64> = step_sizes.iter().map(|tau| 3.0 * tau.powf(1.7)).collect();
-        assert!((fitted_order(&step_sizes, &errors) - 1.7).abs() < 1e-12);
-        assert!(fitted_order(&step_sizes[..1], &errors[..1]).is_nan());
-    }
 
     #[test]
     fn defaults_fit_the_number_of_crossings() {

@@ -14,6 +14,7 @@
 pub mod accurate;
 pub mod conservation;
 pub mod convergence;
+pub mod fit;
 pub mod method;
 pub mod midpoint;
 pub mod perturbed;

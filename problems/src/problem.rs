@@ -16,6 +16,8 @@ use crate::method::MethodName;
 pub use crate::method::Run;
 
 /// Of a run, unless another is given.
+pub const DEFAULT_METHOD: MethodName = MethodName::Best;
+/// Of a run, unless another is given.
 pub const DEFAULT_TOLERANCE: f64 = 1e-12;
 
 /// What a problem is called, where it comes from, and its initial value problem.
@@ -47,8 +49,6 @@ pub type AnySystem = dyn dynamic::AnySystem<Run>;
 #[derive(Debug)]
 pub struct Problem {
     description: Description,
-    /// Of a run, unless another is given.
-    method: MethodName,
     system: Box<AnySystem>,
 }
 
@@ -56,7 +56,6 @@ impl Clone for Problem {
     fn clone(&self) -> Self {
         Self {
             description: self.description,
-            method: self.method,
             system: self.system.duplicate(),
         }
     }
@@ -67,7 +66,6 @@ impl Problem {
     pub fn new(description: Description, system: Box<AnySystem>) -> Self {
         Self {
             description,
-            method: MethodName::Symmetric,
             system,
         }
     }
@@ -90,10 +88,7 @@ impl Problem {
             longest: None,
             reference: None,
         };
-        Ok(Self {
-            method: MethodName::Best,
-            ..Self::new(description, system)
-        })
+        Ok(Self::new(description, system))
     }
 
     /// Name, source and initial value problem.
@@ -212,7 +207,7 @@ impl Problem {
     pub fn default_run(&self) -> Run {
         let description = self.description();
         Run {
-            method: self.method,
+            method: DEFAULT_METHOD,
             step_size: description.step_size,
             tolerance: DEFAULT_TOLERANCE,
             level_correction: true,

@@ -118,9 +118,14 @@ pub fn all() -> Vec<Problem> {
     ENTRIES.iter().map(Entry::problem).collect()
 }
 
+/// The descriptions of all problems.
+pub fn descriptions() -> impl Iterator<Item = &'static Description> {
+    ENTRIES.iter().map(|entry| entry.description)
+}
+
 /// The names of all problems.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    ENTRIES.iter().map(|entry| entry.description.name)
+    descriptions().map(|description| description.name)
 }
 
 /// The problem of that name; `-` and `_` are the same, and so are capitals and small letters.

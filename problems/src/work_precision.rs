@@ -6,6 +6,7 @@
 //! Nothing listens to them, and nothing is kept from
 //! one to the next.
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
@@ -58,6 +59,8 @@ pub struct Setting {
     pub statistics: Statistics,
     /// Seconds of a run, of each round, in ascending order.
     pub seconds: Vec<f64>,
+    /// About the seconds that a turn takes.
+    turn: f64,
 }
 
 impl Setting {
@@ -116,31 +119,60 @@ impl Goal {
     }
 
     /// Measures `methods` in `rounds` rounds; what stops before its end is left out. `progress`
-    /// is told after each round.
+    /// is told the share of the work that is done, and says whether to go on: if not, what was
+    /// timed until then is what was measured.
     pub fn measure(
         &self,
         problem: &Problem,
         methods: &[MethodName],
         rounds: u32,
-        mut progress: impl FnMut(),
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Vec<Setting> {
+        // a round takes as long as the first runs
+        let first = 1.0 / f64::from(rounds + 1);
         let mut settings = Vec::new();
+        let total: f64 = methods.iter().map(|method| weight(*method)).sum();
+        let mut done = 0.0;
         for &method in methods {
-            settings.extend(self.settings_of(problem, method));
-        }
-        for _ in 0..rounds {
-            for setting in &mut settings {
-                let run = self.run(problem, setting.method, setting.control);
-                if let Ok(seconds) = turn(problem, &run) {
-                    setting.seconds.push(seconds);
-                }
+            if progress(first * done / total).is_break() {
+                return Vec::new();
             }
-            progress();
+            settings.extend(self.settings_of(problem, method));
+            done += weight(method);
         }
+        self.time(problem, &mut settings, rounds, &mut |share| {
+            progress(first + (1.0 - first) * share)
+        });
+        settings.retain(|setting| !setting.seconds.is_empty());
         for setting in &mut settings {
             setting.seconds.sort_by(f64::total_cmp);
         }
         settings
+    }
+
+    /// Times every setting in turn.
+    fn time(
+        &self,
+        problem: &Problem,
+        settings: &mut [Setting],
+        rounds: u32,
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) {
+        let round: f64 = settings.iter().map(|setting| setting.turn).sum();
+        let total = f64::from(rounds) * round;
+        let mut done = 0.0;
+        for _ in 0..rounds {
+            for setting in &mut *settings {
+                let run = self.run(problem, setting.method, setting.control);
+                if let Ok(seconds) = turn(problem, &run) {
+                    setting.seconds.push(seconds);
+                }
+                done += setting.turn;
+                if progress(done / total).is_break() {
+                    return;
+                }
+            }
+        }
     }
 
     fn run(&self, problem: &Problem, method: MethodName, control: f64) -> Run {
@@ -167,7 +199,7 @@ impl Goal {
             let result = problem.integrate_silently(&run);
             let elapsed = start.elapsed();
             if let Ok(finish) = result {
-                settings.push(self.setting(method, control, &finish));
+                settings.push(self.setting(method, control, &finish, elapsed));
             }
             let exact = settings.last().is_some_and(|it| it.error < ROUNDING);
             if elapsed > LONGEST_RUN || exact {
@@ -178,7 +210,13 @@ impl Goal {
         settings
     }
 
-    fn setting(&self, method: MethodName, control: f64, finish: &Finish) -> Setting {
+    fn setting(
+        &self,
+        method: MethodName,
+        control: f64,
+        finish: &Finish,
+        elapsed: Duration,
+    ) -> Setting {
         let squares = finish.x.iter().zip(&self.x).map(|(a, b)| (a - b).powi(2));
         Setting {
             method,
@@ -186,7 +224,17 @@ impl Goal {
             error: squares.sum::<f64>().sqrt(),
             statistics: finish.statistics,
             seconds: Vec::new(),
+            turn: elapsed.max(SHORTEST_TURN).as_secs_f64(),
         }
+    }
+}
+
+/// About the time that the settings of a scheme take: until a run is too long where errors fall
+/// by a low power of the cost, next to none where rounding is reached before.
+fn weight(method: MethodName) -> f64 {
+    match method {
+        MethodName::Taylor | MethodName::Best => 0.05,
+        _ => 1.0,
     }
 }
 
@@ -239,7 +287,7 @@ mod tests {
             &problem,
             &[MethodName::Symmetric, MethodName::Taylor],
             2,
-            || (),
+            &mut |_| ControlFlow::Continue(()),
         );
         for method in [MethodName::Symmetric, MethodName::Taylor] {
             let errors: Vec<f64> = settings

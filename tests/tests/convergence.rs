@@ -2,7 +2,10 @@
 //! digits: each scheme's order everywhere, and order 1 where crossings are located with an
 //! error O(τ) (Hirani, Wan & Wojtalewicz, Theorem 3.1 and Figs 3, 4, 6, 7).
 
-use dmm_problems::convergence::{Plan, Row, Study, fitted_order, study};
+use std::ops::ControlFlow;
+
+use dmm_problems::convergence::{Plan, Row, Study, study};
+use dmm_problems::fit::fitted_order;
 use dmm_problems::method::MethodName;
 use dmm_problems::perturbed::Perturbed;
 use dmm_problems::registry::find;
@@ -38,7 +41,7 @@ fn studied(name: &str, method: MethodName, after: &[usize], step_sizes: Vec<f64>
             _ => problem.description().t_end,
         },
     };
-    let study = study(&problem, &plan, || {}).unwrap();
+    let study = study(&problem, &plan, &mut |_| ControlFlow::Continue(())).unwrap();
     assert!(study.stopped.is_empty(), "{:?}", study.stopped);
     study
 }

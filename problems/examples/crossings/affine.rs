@@ -24,7 +24,6 @@ pub(crate) fn study(extent: Extent, observer: &mut dyn Observe) {
 }
 
 fn family<Sys: Family<N>, const N: usize>(count: usize, observer: &mut dyn Observe) {
-    observer.begins(Sys::TITLE);
     let mut tallies = [Tally::default(), Tally::default()];
     let mut differences = 0;
     for index in 0..count {

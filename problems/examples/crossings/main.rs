@@ -44,8 +44,6 @@ struct Table {
 }
 
 impl Observe for Table {
-    fn begins(&mut self, _case: &str) {}
-
     fn ended(&mut self, row: Row) {
         self.counts[row.verdict as usize] += 1;
         let verdict = row.verdict.describe();

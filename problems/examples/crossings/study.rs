@@ -130,7 +130,6 @@ impl<Sys: Family<N>, const N: usize> Case<Sys, N> {
 
 impl Campaign<'_> {
     fn family<Sys: Family<N>, const N: usize>(&mut self) {
-        self.observer.begins(Sys::TITLE);
         let mut tallies = vec![Tally::default(); SETTINGS.len()];
         for group in 0..self.groups {
             let mut random = Random::new(Sys::default().metadata().name, group);

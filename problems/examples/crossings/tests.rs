@@ -226,8 +226,6 @@ struct Wrong {
 }
 
 impl Observe for Wrong {
-    fn begins(&mut self, _case: &str) {}
-
     fn ended(&mut self, row: Row) {
         self.cases += 1;
         if row.verdict == Verdict::Wrong {

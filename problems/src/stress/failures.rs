@@ -6,7 +6,7 @@ use dmm_runtime::{
     OneStep, Statistics, Step, StepFailure, Symmetric, System, Taylor, Uniform, Vector, pws,
 };
 
-use super::{Extent, Observe, Row, Verdict, kind_of};
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
 use crate::picture::Panel;
 use crate::systems::Elliptic;
 
@@ -65,7 +65,9 @@ const FROM: f64 = 1.0;
 const T_END: f64 = 3.0;
 
 pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
-    observer.begins("solvers and locators");
+    if observer.begins("solvers and locators").is_break() {
+        return Vec::new();
+    }
     let stuck = StepFailure::NoConvergence {
         residual: 1.0,
         iterations: 30,
@@ -79,7 +81,9 @@ pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     ] {
         observer.ended(located(what, locator));
     }
-    observer.begins("formulas");
+    if observer.begins("formulas").is_break() {
+        return Vec::new();
+    }
     for tolerance in [1e-3, 1e-12] {
         let scheme = Taylor::tolerance(tolerance);
         formulas(observer, &format!("Taylor {tolerance:e}"), &scheme);

@@ -1,6 +1,6 @@
 //! How the largest error so far grows.
 
-use crate::convergence::fitted_order;
+use crate::fit::fitted_order;
 
 /// Points of the curve in a decade.
 const A_DECADE: i32 = 8;

@@ -5,9 +5,10 @@
 use std::ops::ControlFlow;
 
 use super::growth::Growth;
-use super::{Extent, Observe, Row, Setting, Verdict, kind_of};
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::setting::Setting;
 use crate::method::MethodName;
-use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
+use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Problem, Record, Run};
 use crate::registry::find;
 
@@ -59,42 +60,64 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     );
     for (k, (name, setting, steps)) in CASES.into_iter().enumerate() {
         let what = format!("{name}, {}", setting.name);
-        observer.begins(&what);
         let Ok(problem) = find(name) else {
             continue;
         };
-        let (row, growth) = measure(&problem, &setting, steps / extent.of(1, 5000));
+        if observer.begins(&what).is_break() {
+            break;
+        }
+        let steps = steps / extent.of(1, 5000);
+        let Some((row, growth)) = measure(&problem, &setting, steps, observer) else {
+            break;
+        };
         observer.ended(row);
-        let colour = COLOURS[k % COLOURS.len()];
-        panel.curve(Some(what), growth.points(), Stroke::Marked, colour);
+        let look = Look::nth(k);
+        panel.curve(Some(what), growth.points(), Stroke::Marked, look);
     }
     vec![panel]
 }
 
 /// |ψ − ψ_ref| over a number of steps.
-struct Meter {
+struct Meter<'a> {
     growth: Growth,
     steps: u64,
     wanted: u64,
+    is_stopped: bool,
+    observer: &'a mut dyn Observe,
 }
 
-impl AnyObserver for Meter {
+/// Steps from one word of progress to the next.
+const TOLD: u64 = 1 << 14;
+
+impl AnyObserver for Meter<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         self.growth.offer(self.steps as f64, record.error_ulps());
         self.steps += 1;
         if self.steps > self.wanted {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
+            return ControlFlow::Break(());
         }
+        if self.steps.is_multiple_of(TOLD) {
+            let flow = self.observer.at(self.steps as f64 / self.wanted as f64);
+            self.is_stopped = flow.is_break();
+            return flow;
+        }
+        ControlFlow::Continue(())
     }
 }
 
-fn measure(problem: &Problem, setting: &Setting, steps: u64) -> (Row, Growth) {
+/// Nothing if the run was stopped.
+fn measure(
+    problem: &Problem,
+    setting: &Setting,
+    steps: u64,
+    observer: &mut dyn Observe,
+) -> Option<(Row, Growth)> {
     let mut meter = Meter {
         growth: Growth::new(),
         steps: 0,
         wanted: steps,
+        is_stopped: false,
+        observer,
     };
     let run = Run {
         // the meter stops the run
@@ -102,6 +125,9 @@ fn measure(problem: &Problem, setting: &Setting, steps: u64) -> (Row, Growth) {
         ..setting.run(problem)
     };
     let result = problem.integrate(&run, &mut meter);
+    if meter.is_stopped {
+        return None;
+    }
     let (ulps, exponent) = (meter.growth.largest(), meter.growth.exponent());
     let what = format!("{}, {:.0e} steps", problem.description().name, steps as f64);
     let row = match result {
@@ -117,5 +143,5 @@ fn measure(problem: &Problem, setting: &Setting, steps: u64) -> (Row, Growth) {
         // nothing stands in the way of these runs
         Err(error) => Row::new(what, setting.name, Verdict::Wrong, kind_of(&error)),
     };
-    (row, meter.growth)
+    Some((row, meter.growth))
 }

@@ -7,107 +7,18 @@
 mod failures;
 mod growth;
 mod long;
+mod report;
 mod scales;
+mod setting;
 mod step_sizes;
 mod stiffness;
 mod systems;
 mod tangency;
 mod transitions;
 
-use dmm_runtime::{Error, ErrorKind};
+pub use report::{Extent, Observe, Row, Verdict, kind_of};
 
-use crate::method::{Control, MethodName};
 use crate::picture::Panel;
-use crate::problem::{Problem, Run};
-
-/// How a case ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Verdict {
-    /// It was integrated, within the bounds.
-    Survived,
-    /// It was stopped by a typed error, or told as undecided.
-    Refused,
-    /// It was integrated beyond the bounds, and nothing was said.
-    Wrong,
-}
-
-impl Verdict {
-    /// [`Verdict::Survived`] or [`Verdict::Wrong`].
-    pub fn within(bounds: bool) -> Self {
-        if bounds { Self::Survived } else { Self::Wrong }
-    }
-
-    /// In a word.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Self::Survived => "survived",
-            Self::Refused => "refused",
-            Self::Wrong => "WRONG",
-        }
-    }
-}
-
-/// A case and what became of it.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Row {
-    /// What was integrated.
-    pub case: String,
-    /// By which scheme.
-    pub scheme: String,
-    /// How it ended.
-    pub verdict: Verdict,
-    /// The figures.
-    pub finding: String,
-}
-
-impl Row {
-    /// A case by a scheme, how it ended, and its figures.
-    pub fn new(
-        case: impl Into<String>,
-        scheme: impl Into<String>,
-        verdict: Verdict,
-        finding: impl Into<String>,
-    ) -> Self {
-        Self {
-            case: case.into(),
-            scheme: scheme.into(),
-            verdict,
-            finding: finding.into(),
-        }
-    }
-
-    /// A run that was stopped.
-    fn refused(case: impl Into<String>, scheme: impl Into<String>, error: &Error) -> Self {
-        Self::new(case, scheme, Verdict::Refused, kind_of(error))
-    }
-}
-
-/// How much is done.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Extent {
-    /// Everything.
-    Full,
-    /// The same in a few seconds.
-    Brief,
-}
-
-impl Extent {
-    /// A number that depends on it.
-    pub fn of<T>(self, full: T, brief: T) -> T {
-        match self {
-            Self::Full => full,
-            Self::Brief => brief,
-        }
-    }
-}
-
-/// Follows a study.
-pub trait Observe {
-    /// A case begins.
-    fn begins(&mut self, case: &str);
-    /// A case has ended.
-    fn ended(&mut self, row: Row);
-}
 
 /// A study.
 #[derive(Clone, Copy, Debug)]
@@ -165,87 +76,10 @@ pub const STUDIES: [Study; 7] = [
     },
 ];
 
-/// A scheme at a setting.
-#[derive(Clone, Copy, Debug)]
-struct Setting {
-    name: &'static str,
-    method: MethodName,
-    step_size: f64,
-    tolerance: f64,
-}
-
-impl Setting {
-    /// A scheme with uniform steps.
-    const fn steps(name: &'static str, method: MethodName, step_size: f64) -> Self {
-        Self {
-            name,
-            method,
-            step_size,
-            tolerance: f64::NAN,
-        }
-    }
-
-    /// A scheme that chooses its steps.
-    const fn tolerance(name: &'static str, method: MethodName, tolerance: f64) -> Self {
-        Self {
-            name,
-            method,
-            // for runs whose length is given in steps
-            step_size: 1.0,
-            tolerance,
-        }
-    }
-
-    fn has_uniform_steps(&self) -> bool {
-        matches!(self.method.control(), Control::StepSize { .. })
-    }
-
-    /// The default run of a problem at this setting.
-    fn run(&self, problem: &Problem) -> Run {
-        Run {
-            method: self.method,
-            step_size: self.step_size,
-            tolerance: self.tolerance,
-            ..problem.default_run()
-        }
-    }
-}
-
-/// Every scheme, at settings for problems whose time scale is about 1; those that choose their
-/// steps also at a loose tolerance.
-const SETTINGS: [Setting; 9] = [
-    Setting::steps("Symmetric", MethodName::Symmetric, 0.02),
-    Setting::steps("Composed<4>", MethodName::Composed4, 0.04),
-    Setting::steps("Composed<6>", MethodName::Composed6, 0.08),
-    Setting::steps("Composed<8>", MethodName::Composed8, 0.08),
-    Setting::tolerance("Symmetric 1e-5", MethodName::SymmetricAdaptive, 1e-5),
-    Setting::tolerance("Composed<8> 1e-9", MethodName::Composed8Adaptive, 1e-9),
-    Setting::tolerance("Taylor 1e-3", MethodName::Taylor, 1e-3),
-    Setting::tolerance("Taylor 1e-12", MethodName::Taylor, 1e-12),
-    Setting::tolerance("Best 1e-12", MethodName::Best, 1e-12),
-];
-
-/// The kind of an error, in a few words.
-pub fn kind_of(error: &Error) -> &'static str {
-    match error.kind {
-        ErrorKind::InvalidInput { .. } => "invalid input",
-        ErrorKind::NewtonFailed { .. } => "Newton failed",
-        ErrorKind::LeftDomain | ErrorKind::Undefined { .. } => "left the domain",
-        ErrorKind::Overflow => "overflow",
-        ErrorKind::Sliding { .. } => "sliding",
-        ErrorKind::Tangential { .. } => "tangential",
-        ErrorKind::Ambiguous { .. } => "ambiguous start",
-        ErrorKind::NoRegion => "no region",
-        ErrorKind::LocationFailed { .. } => "location failed",
-        ErrorKind::Undecided { .. } => "undecided",
-        ErrorKind::Zeno { .. } => "Zeno",
-        ErrorKind::OutOfRange { .. } => "out of range",
-        _ => "other",
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
     use super::*;
 
     #[derive(Default)]
@@ -255,8 +89,14 @@ mod tests {
     }
 
     impl Observe for Seen {
-        fn begins(&mut self, _case: &str) {
+        fn begins(&mut self, _case: &str) -> ControlFlow<()> {
             self.begun += 1;
+            ControlFlow::Continue(())
+        }
+
+        fn at(&mut self, share: f64) -> ControlFlow<()> {
+            assert!((0.0..=1.0).contains(&share), "{share}");
+            ControlFlow::Continue(())
         }
 
         fn ended(&mut self, row: Row) {

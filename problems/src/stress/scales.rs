@@ -4,8 +4,9 @@
 //! −q³ it moves s times as fast, and ψ is s⁴ times as large; below s = 10⁻⁷⁰ it would be lost to
 //! underflow.
 
+use super::report::{Extent, Observe, Row, Verdict};
+use super::setting::{SETTINGS, Setting};
 use super::systems::{circle, quartic};
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
 use crate::picture::Panel;
 use crate::problem::{AnyObserver, OutputTimes, Problem, Run};
 use dmm_runtime::Error;
@@ -40,31 +41,39 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let stride = extent.of(5, 25);
     for case in CASES {
         for setting in SETTINGS {
-            observer.begins(&format!(
-                "{}, {}",
-                (case.problem)().description().name,
-                setting.name
-            ));
-            observer.ended(row(&case, &setting, stride));
+            let name = (case.problem)().description().name;
+            let begins = observer.begins(&format!("{name}, {}", setting.name));
+            if begins.is_break() {
+                return Vec::new();
+            }
+            match row(&case, &setting, stride, observer) {
+                Some(row) => observer.ended(row),
+                None => return Vec::new(),
+            }
         }
     }
     Vec::new()
 }
 
-fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
+/// Nothing if the case was stopped.
+fn row(case: &Case, setting: &Setting, stride: usize, observer: &mut dyn Observe) -> Option<Row> {
     let name = (case.problem)().description().name;
     let (first, last) = case.decades;
     let what = format!("{name}, states times 1e{first} to 1e{last}");
     let plain = match scaled(case, setting, 0) {
         Ok(plain) => plain,
-        Err(error) => return Row::refused(what, setting.name, &error),
+        Err(error) => return Some(Row::refused(what, setting.name, &error)),
     };
     let mut worst: f64 = 0.0;
     let mut refused = Vec::new();
     for decade in (first..=last).step_by(stride) {
+        let share = f64::from(decade - first) / f64::from(last - first);
+        if observer.at(share).is_break() {
+            return None;
+        }
         match scaled(case, setting, decade) {
             Ok(state) => worst = worst.max(distance(&state, &plain)),
-            Err(error) => refused.push((decade, super::kind_of(&error))),
+            Err(error) => refused.push((decade, super::report::kind_of(&error))),
         }
     }
     let mut finding = format!("the same to {worst:.1e}");
@@ -76,7 +85,8 @@ fn row(case: &Case, setting: &Setting, stride: usize) -> Row {
     }
     // a unit of time that is a power of two makes other steps, by a few parts in a hundred
     let bound = BOUND.max((300.0 * setting.tolerance).min(0.05));
-    Row::new(what, setting.name, Verdict::within(worst <= bound), finding)
+    let verdict = Verdict::within(worst <= bound);
+    Some(Row::new(what, setting.name, verdict, finding))
 }
 
 /// The largest difference of components; infinite if one is not a number.

@@ -4,9 +4,10 @@
 use std::f64::consts::{FRAC_PI_4, PI};
 use std::ops::ControlFlow;
 
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
+use super::report::{Extent, Observe, Row, Verdict};
+use super::setting::{SETTINGS, Setting};
 use crate::method::Control;
-use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
+use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Run};
 use crate::registry::find;
 
@@ -37,7 +38,9 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         Axis::new("relative error of its time", Scale::Decades),
     );
     for (k, setting) in SETTINGS.into_iter().enumerate() {
-        observer.begins(setting.name);
+        if observer.begins(setting.name).is_break() {
+            break;
+        }
         let mut curve = Vec::new();
         let mut worst = Row::new(
             format!("ratios up to 1e{largest}, {} crossings", 2 * pairs),
@@ -47,6 +50,12 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         );
         let mut largest_error: f64 = 0.0;
         for exponent in 0..=largest {
+            if observer
+                .at(f64::from(exponent) / f64::from(largest + 1))
+                .is_break()
+            {
+                return vec![panel];
+            }
             let ratio = 10f64.powi(exponent);
             match error(&setting, ratio, pairs) {
                 Ok(error) => {
@@ -72,7 +81,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
             Some(setting.name.to_owned()),
             curve,
             Stroke::Marked,
-            COLOURS[k % COLOURS.len()],
+            Look::nth(k),
         );
     }
     vec![panel]

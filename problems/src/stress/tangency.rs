@@ -11,9 +11,10 @@ use std::ops::ControlFlow;
 use dmm_runtime::{Error, ErrorKind};
 use num_rational::BigRational;
 
+use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::setting::{SETTINGS, Setting};
 use super::systems::{circle, quartic};
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict, kind_of};
-use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
+use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Problem, Run};
 
 /// Steps in the half turn before the wall.
@@ -78,30 +79,46 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let mut panel = Panel::new(
         "circle: crossing at the angle α",
         Axis::new("α", Scale::Decades),
-        Axis::new("error of the crossing's time", Scale::Decades),
+        Axis::new("|t − t*| of the first crossing", Scale::Decades),
     );
     for (kind, shown) in KINDS.iter().zip([true, false]) {
         for (k, setting) in SETTINGS.into_iter().enumerate() {
             let name = (kind.problem)().description().name;
-            observer.begins(&format!("{name}, {}", setting.name));
+            if observer
+                .begins(&format!("{name}, {}", setting.name))
+                .is_break()
+            {
+                return vec![panel];
+            }
             let mut tally = Tally::default();
             let mut curve = Vec::new();
-            for alpha in angles(per_decade) {
+            let count = angles(per_decade).count() as f64;
+            for (number, alpha) in angles(per_decade).enumerate() {
+                if observer.at(number as f64 / count).is_break() {
+                    return vec![panel];
+                }
                 for c in walls(kind, alpha) {
                     let first = tally.judge(kind, &setting, alpha, c);
                     if let Some(t) = first.filter(|_| c == 1.0) {
-                        curve.push((alpha, (t - std::f64::consts::PI).abs().max(1e-17)));
+                        // a time that is right to the last bit has a place on the axis, too
+                        let error = (t - first_crossing(alpha)).abs();
+                        curve.push((alpha, error.max(f64::EPSILON)));
                     }
                 }
             }
             observer.ended(tally.row(name, setting.name));
             if shown {
                 let label = Some(setting.name.to_owned());
-                panel.curve(label, curve, Stroke::Marked, COLOURS[k % COLOURS.len()]);
+                panel.curve(label, curve, Stroke::Marked, Look::nth(k));
             }
         }
     }
     vec![panel]
+}
+
+/// The time from (−1, α) to the wall at 1, on the circle: t* = π − 2 atan α.
+fn first_crossing(alpha: f64) -> f64 {
+    std::f64::consts::PI - 2.0 * alpha.atan()
 }
 
 /// From 10⁻¹ down to 10⁻¹².

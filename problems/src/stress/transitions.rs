@@ -11,9 +11,10 @@ use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
 use super::growth::Growth;
+use super::report::{Extent, Observe, Row, Verdict};
+use super::setting::{SETTINGS, Setting};
 use super::systems::warped;
-use super::{Extent, Observe, Row, SETTINGS, Setting, Verdict};
-use crate::picture::{Axis, COLOURS, Panel, Scale, Stroke};
+use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Problem, Record, Run};
 use crate::reference::Reference;
 use crate::registry::find;
@@ -48,37 +49,44 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
             Axis::new("largest |ψ_ref − exact level| so far", Scale::Decades),
         );
         for (k, setting) in SETTINGS.into_iter().enumerate() {
-            observer.begins(&format!("{}, {}", problem.description().name, setting.name));
-            let (row, growth) = measure(&problem, &setting, transitions);
+            let case = format!("{}, {}", problem.description().name, setting.name);
+            if observer.begins(&case).is_break() {
+                break;
+            }
+            let Some((row, growth)) = measure(&problem, &setting, transitions, observer) else {
+                break;
+            };
             observer.ended(row);
             let label = Some(setting.name.to_owned());
-            panel.curve(
-                label,
-                growth.points(),
-                Stroke::Marked,
-                COLOURS[k % COLOURS.len()],
-            );
+            panel.curve(label, growth.points(), Stroke::Marked, Look::nth(k));
         }
         panels.push(panel);
     }
-    observer.begins("elliptic, with the remainder");
+    if observer.begins("elliptic, with the remainder").is_break() {
+        return panels;
+    }
     for tolerance in [1e-3, 1e-12] {
-        observer.ended(pinned(tolerance, transitions));
+        match pinned(tolerance, transitions, observer) {
+            Some(row) => observer.ended(row),
+            None => break,
+        }
     }
     panels
 }
 
 /// Levels at entries into regions.
-struct Levels {
+struct Levels<'a> {
     /// The exact level of each region.
     exact: Vec<f64>,
     growth: Growth,
     transitions: u64,
     wanted: u64,
     entered: bool,
+    is_stopped: bool,
+    observer: &'a mut dyn Observe,
 }
 
-impl AnyObserver for Levels {
+impl AnyObserver for Levels<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if let (true, Some(exact)) = (self.entered, self.exact.get(record.region)) {
             let error = (record.level[0] - exact).abs();
@@ -95,17 +103,28 @@ impl AnyObserver for Levels {
     fn transition(&mut self, _crossed: &Crossed) -> ControlFlow<()> {
         self.transitions += 1;
         self.entered = true;
-        ControlFlow::Continue(())
+        let share = self.transitions as f64 / self.wanted as f64;
+        let flow = self.observer.at(share.min(1.0));
+        self.is_stopped = flow.is_break();
+        flow
     }
 }
 
-fn measure(problem: &Problem, setting: &Setting, transitions: u64) -> (Row, Growth) {
+/// Nothing if the run was stopped.
+fn measure(
+    problem: &Problem,
+    setting: &Setting,
+    transitions: u64,
+    observer: &mut dyn Observe,
+) -> Option<(Row, Growth)> {
     let mut levels = Levels {
         exact: exact(problem),
         growth: Growth::new(),
         transitions: 0,
         wanted: transitions,
         entered: false,
+        is_stopped: false,
+        observer,
     };
     let run = Run {
         // more than there can be between transitions; the levels stop the run
@@ -113,7 +132,11 @@ fn measure(problem: &Problem, setting: &Setting, transitions: u64) -> (Row, Grow
         ..setting.run(problem)
     };
     let what = format!("{}, {transitions} transitions", problem.description().name);
-    let row = match problem.integrate(&run, &mut levels) {
+    let result = problem.integrate(&run, &mut levels);
+    if levels.is_stopped {
+        return None;
+    }
+    let row = match result {
         Ok(_) => {
             let (error, exponent) = (levels.growth.largest(), levels.growth.exponent());
             let holds = error <= bound(transitions as f64) && levels.transitions == transitions;
@@ -123,7 +146,7 @@ fn measure(problem: &Problem, setting: &Setting, transitions: u64) -> (Row, Grow
         // nothing stands in the way of these runs
         Err(error) => Row::new(what, setting.name, Verdict::Wrong, error.to_string()),
     };
-    (row, levels.growth)
+    Some((row, levels.growth))
 }
 
 /// The exact level of each region: of the reference, or that of the start for all.
@@ -158,29 +181,47 @@ impl AnyObserver for Start {
     }
 }
 
-/// Stops at a transition.
-struct Stop(u64);
+/// Stops at a transition, or when it is told to.
+struct Stop<'a> {
+    transitions: u64,
+    wanted: u64,
+    is_stopped: bool,
+    observer: &'a mut dyn Observe,
+}
 
-impl Observer<EllipticRegion, 2> for Stop {
+impl Observer<EllipticRegion, 2> for Stop<'_> {
     fn transition(&mut self, _: &Transition<EllipticRegion, 2>) -> ControlFlow<()> {
-        self.0 = self.0.saturating_sub(1);
-        match self.0 {
-            0 => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
+        self.transitions += 1;
+        if self.transitions == self.wanted {
+            return ControlFlow::Break(());
         }
+        let flow = self
+            .observer
+            .at(self.transitions as f64 / self.wanted as f64);
+        self.is_stopped = flow.is_break();
+        flow
     }
 }
 
 /// The level of `elliptic` outside of the circle after an even number of transitions, evaluated
-/// exactly at the state with its remainder: it was 0 at the start.
-fn pinned(tolerance: f64, transitions: u64) -> Row {
+/// exactly at the state with its remainder: it was 0 at the start. Nothing if the run was stopped.
+fn pinned(tolerance: f64, transitions: u64, observer: &mut dyn Observe) -> Option<Row> {
     let system = Elliptic::default();
     let what = format!("elliptic, state with remainder, {transitions} transitions");
     let scheme = format!("Taylor {tolerance:e}");
+    let mut stop = Stop {
+        transitions: 0,
+        wanted: transitions,
+        is_stopped: false,
+        observer,
+    };
     let result = Integrator::new(&system, Taylor::tolerance(tolerance))
         .initial(0.0, [-1.0, -1.0])
-        .observe_until(100.0 * transitions as f64, &mut Stop(transitions));
-    match result {
+        .observe_until(100.0 * transitions as f64, &mut stop);
+    if stop.is_stopped {
+        return None;
+    }
+    Some(match result {
         Ok(end) => {
             let rational = |value: f64| BigRational::from_float(value);
             let exactly = |i: usize| Some(rational(end.point.x[i])? + rational(end.remainder[i])?);
@@ -196,5 +237,5 @@ fn pinned(tolerance: f64, transitions: u64) -> Row {
             Row::new(what, scheme, Verdict::within(level <= PINNED), finding)
         }
         Err(error) => Row::new(what, scheme, Verdict::Wrong, error.to_string()),
-    }
+    })
 }

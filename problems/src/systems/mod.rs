@@ -5,8 +5,6 @@
 //! classics that exercise other functions and strategies. These are compared with the
 //! independent integrator of [`accurate`](crate::accurate).
 
-#[cfg(test)]
-mod check;
 pub mod damped;
 pub mod double_pendulum;
 pub mod elliptic;

@@ -1,6 +1,9 @@
 //! The program `pws` as its user meets it.
 
+mod directory;
 mod ensemble;
+#[cfg(unix)]
+mod interrupt;
 mod refusals;
 mod run;
 mod show;
@@ -151,9 +154,9 @@ fn every_command_takes_every_problem() {
         let name = problem.description().name;
         let shown = said(&["show", name]);
         assert!(shown.contains("discrete vector field"), "{name}");
-        let text = results.said(&["run", name, "--step", "0.02", "--end", "1"]);
+        let text = results.said(&["run", name, "--step", "0.02", "--end", "1", "--force"]);
         assert!(
-            text.contains("reached t = 1 by symmetric with step size 0.02"),
+            text.contains("reached t = 1 by best with tolerance 1e-12"),
             "{text}"
         );
         let halvings = [
@@ -165,9 +168,10 @@ fn every_command_takes_every_problem() {
             "2",
             "--step",
             "0.01",
+            "--force",
         ];
         let text = results.said(&[&["converge", name][..], &halvings].concat());
         assert!(text.contains("order"), "{text}");
     }
-    assert_names_every_problem(&results.said(&["conserve", "--steps", "200"]));
+    assert_names_every_problem(&results.said(&["conserve", "--steps", "200", "--force"]));
 }

@@ -7,7 +7,8 @@ use super::{Results, pws, refusal, texts};
 #[test]
 fn run_writes_points_transitions_and_pictures() {
     let results = Results::within("new/folder");
-    let text = results.said(&["run", "harmonic", "--step", "0.01", "--end", "10"]);
+    let scheme = ["--scheme", "symmetric", "--step", "0.01"];
+    let text = results.said(&[&["run", "harmonic", "--end", "10"], &scheme[..]].concat());
     assert!(text.contains("transitions: 4"), "{text}");
     assert!(text.contains("Newton iterations a step"));
 

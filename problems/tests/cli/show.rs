@@ -63,10 +63,18 @@ fn mistakes_are_shown_where_they_are() {
     let shown = path.to_str().unwrap();
     let [text, errors] = texts(pws(&["show", shown]), 2);
     assert_eq!(text, "");
-    assert!(errors.contains(&format!("{shown}:4:15: ")), "{errors}");
-    assert!(errors.contains(&format!("{shown}:6:19: ")), "{errors}");
+    assert!(errors.contains(&format!("--> {shown}:4:15\n")), "{errors}");
+    assert!(errors.contains(&format!("--> {shown}:6:19\n")), "{errors}");
+    let underlined = "\n6 |     der(y) = -k * z;\n  |                   ^\n";
+    assert!(errors.contains(underlined), "{errors}");
+    let [before, last] = errors
+        .trim_end()
+        .rsplit_once('\n')
+        .map(<[&str; 2]>::from)
+        .unwrap();
+    assert!(before.starts_with("error: "), "{errors}");
     assert!(
-        errors.ends_with(&format!("pws: 2 errors in {shown}\n")),
+        last.starts_with(&format!("pws: 2 errors in {shown} (`pws explain PWS")),
         "{errors}"
     );
 }
@@ -87,7 +95,7 @@ fn what_is_not_used_is_a_warning() {
 #[test]
 fn files_that_declare_nothing_are_refused() {
     let folder = tempfile::tempdir().unwrap();
-    for (text, expected) in [("fn main() {}", "declares no system"), ("\n  )", ":2:3: ")] {
+    for (text, expected) in [("fn main() {}", "declares no system"), ("\n  )", ":2:3\n")] {
         let path = file(folder.path(), "other.rs", text);
         let [_, errors] = texts(pws(&["show", path.to_str().unwrap()]), 2);
         assert!(errors.contains(expected), "{errors}");
@@ -148,7 +156,7 @@ fn invariants_are_found_and_accepted() {
     fs::write(&file, "system S { state x; der(x) = y; }").unwrap();
     let [_, text] = texts(pws(&["show", path, "--find-invariants", "2"]), 2);
     assert!(
-        text.contains("duffing.pws:1:30: `y` is not declared"),
+        text.contains("error: `y` is not declared") && text.contains("duffing.pws:1:30\n"),
         "{text}"
     );
 }

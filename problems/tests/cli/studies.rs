@@ -58,6 +58,7 @@ fn the_studies_take_a_scheme() {
     let call = [
         "conserve", "elliptic", "--scheme", "taylor", "--steps", "5000",
     ];
+    let results = Results::new();
     results.said(&[&call[..], &["--tolerance", "1e-9"]].concat());
     let (header, rows) = results.table("conservation.csv");
     let column = |name: &str| header.iter().position(|known| known == name).unwrap();

@@ -1,19 +1,20 @@
 //! `pws bench`
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
 
 use dmm_problems::method::{Control, MethodName};
-use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
+use dmm_problems::picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;
 use dmm_problems::registry;
 use dmm_problems::work_precision::{Goal, Setting, fastest};
-use indicatif::ProgressBar;
+use serde_json::{Value, json};
 
+use crate::directory::{self, DirectoryOptions};
 use crate::failure::Failure;
 use crate::input::{self, FormatOption};
+use crate::interrupt;
 use crate::output::{self, Csv, Table};
-use crate::progress;
+use crate::progress::Progress;
 
 /// What to measure.
 #[derive(clap::Args)]
@@ -27,9 +28,8 @@ pub(crate) struct Arguments {
     /// How often each setting is timed.
     #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
-    /// Directory of the results.
-    #[arg(long, default_value = "output")]
-    out: PathBuf,
+    #[command(flatten)]
+    directory: DirectoryOptions,
     /// How the picture is stored.
     #[arg(long, value_enum, default_value = "svg")]
     format: FormatOption,
@@ -39,8 +39,6 @@ pub(crate) struct Arguments {
 const LEVELS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 /// Panels in a row of the picture.
 const COLUMNS: usize = 3;
-/// About the steps in a round, as far as progress is concerned.
-const WORK: f64 = 1e8;
 
 /// Measures, prints the table, writes CSV and picture.
 pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
@@ -49,19 +47,34 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
         .iter()
         .map(|problem| Goal::of(problem, arguments.end).map_err(Failure::from))
         .collect::<Result<Vec<_>, _>>()?;
-    output::directory(&arguments.out)?;
-    let mut csv = Csv::create(arguments.out.join("work_precision.csv"), HEADER)?;
+    let mut out = arguments.directory.open(
+        "output/bench",
+        &["work_precision"],
+        request(arguments, &problems, &goals),
+    )?;
+    interrupt::listen()?;
+    let mut csv = out.csv("work_precision.csv", HEADER)?;
     let mut table = Table::new(2, header());
     let mut panels = Vec::new();
-    let rounds = u64::from(arguments.rounds) * problems.len() as u64;
-    let bar = progress::bar(rounds, WORK);
-    for (problem, goal) in problems.iter().zip(&goals) {
-        let settings = measure(problem, goal, arguments.rounds, &bar);
+    let progress = Progress::new("");
+    let methods: Vec<MethodName> = MethodName::all().collect();
+    let mut outcome = Ok(());
+    for (number, (problem, goal)) in problems.iter().zip(&goals).enumerate() {
+        let count = problems.len() as f64;
+        progress.tell(problem.description().name);
+        let settings = goal.measure(problem, &methods, arguments.rounds, &mut |share| {
+            progress.at((number as f64 + share) / count)
+        });
         write(&mut csv, problem, goal, &settings)?;
         add(&mut table, problem, goal, &settings);
         panels.push(panel(problem, goal, &settings));
+        if interrupt::is_requested() {
+            let text = format!("in problem {} of {count}", number + 1);
+            outcome = Err(Failure::Interrupted(text));
+            break;
+        }
     }
-    bar.finish_and_clear();
+    progress.finish();
     table.print()?;
     writeln!(
         std::io::stdout(),
@@ -76,9 +89,21 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
              code; built with `--features compiled` all are generated"
         )?;
     }
-    output::announce(&[csv.finish()?])?;
-    output::announce(&[picture(panels, &arguments.out, arguments.format)?])?;
-    Ok(())
+    out.add(csv.finish()?);
+    out.picture("work_precision", &picture(panels), arguments.format.into())?;
+    out.finish(&outcome)?;
+    outcome
+}
+
+/// What decides the results.
+fn request(arguments: &Arguments, problems: &[Problem], goals: &[Goal]) -> Value {
+    let end = |goal: &Goal| json!({ "end": goal.t });
+    let each = problems.iter().zip(goals).map(|(problem, goal)| {
+        let mut request = directory::of_problem(problem);
+        directory::add(&mut request, end(goal));
+        request
+    });
+    json!({ "problems": each.collect::<Vec<_>>(), "rounds": arguments.rounds })
 }
 
 fn problems(arguments: &Arguments) -> Result<Vec<Problem>, Failure> {
@@ -89,12 +114,6 @@ fn problems(arguments: &Arguments) -> Result<Vec<Problem>, Failure> {
     }
     let names = arguments.problems.iter();
     names.map(|name| input::problem(name, &[])).collect()
-}
-
-fn measure(problem: &Problem, goal: &Goal, rounds: u32, bar: &ProgressBar) -> Vec<Setting> {
-    let methods: Vec<MethodName> = MethodName::all().collect();
-    bar.set_message(problem.description().name);
-    goal.measure(problem, &methods, rounds, || bar.inc(1))
 }
 
 const HEADER: [&str; 12] = [
@@ -129,16 +148,16 @@ fn write(
     for setting in settings {
         let mut row = vec![
             problem.description().name.to_owned(),
-            goal.t.to_string(),
+            output::number(goal.t),
             goal.origin.describe().to_owned(),
             setting.method.name().to_owned(),
             control(setting.method).to_owned(),
-            setting.control.to_string(),
-            setting.error.to_string(),
+            output::number(setting.control),
+            output::number(setting.error),
             setting.statistics.steps.to_string(),
             setting.statistics.transitions.to_string(),
         ];
-        row.extend(setting.spread().map(|seconds| seconds.to_string()));
+        row.extend(setting.spread().map(output::number));
         csv.row(row)?;
     }
     Ok(())
@@ -198,16 +217,15 @@ fn panel(problem: &Problem, goal: &Goal, settings: &[Setting]) -> Panel {
         let points = own
             .map(|setting| (setting.error, setting.spread()[0]))
             .collect();
-        let colour = COLOURS[k % COLOURS.len()];
-        panel.curve(Some(label(method)), points, Stroke::Marked, colour);
+        let look = Look::nth(k);
+        panel.curve(Some(label(method)), points, Stroke::Marked, look);
     }
     panel
 }
 
-fn picture(panels: Vec<Panel>, out: &Path, format: FormatOption) -> Result<PathBuf, Failure> {
-    let picture = Picture {
+fn picture(panels: Vec<Panel>) -> Picture {
+    Picture {
         columns: panels.len().clamp(1, COLUMNS),
         ..Picture::row("time against final error", panels)
-    };
-    output::picture(out, "work_precision", &picture, format.into())
+    }
 }

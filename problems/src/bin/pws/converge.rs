@@ -1,18 +1,22 @@
-//! `pws converge PROBLEM`
+//! `pws converge PROBLEM`, `pws converge FILE`
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, fitted_order, norms};
+use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, norms};
+use dmm_problems::fit::fitted_order;
 use dmm_problems::method::{Control, MethodName};
-use dmm_problems::picture::{Axis, COLOURS, Panel, Picture, Scale, Stroke};
+use dmm_problems::picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;
 use dmm_problems::truth::Truth;
+use serde_json::{Value, json};
 
+use crate::directory::{self, Directory, DirectoryOptions};
 use crate::failure::Failure;
 use crate::input::{self, FormatOption};
-use crate::output::{self, Csv, Table};
-use crate::progress;
+use crate::interrupt;
+use crate::output::{self, Table};
+use crate::progress::Progress;
 use crate::scheme;
 
 /// What to measure.
@@ -21,7 +25,7 @@ pub(crate) struct Arguments {
     /// Name of the problem (see `pws list`), or a file that declares a system.
     #[arg(value_name = "PROBLEM|FILE")]
     problem: String,
-    /// The scheme, one of uniform steps.
+    /// The scheme, one of uniform steps: the default of other commands, `best`, has no step size.
     #[arg(long, default_value = "symmetric", value_parser = scheme::uniform_names())]
     scheme: String,
     /// Numbers of transitions after which errors are measured [default: 0,10,20,30, or fewer
@@ -44,9 +48,8 @@ pub(crate) struct Arguments {
     /// The initial state; states not named keep the problem's value.
     #[arg(long, value_name = "x=1,q[0]=2", allow_hyphen_values = true)]
     initial: Option<String>,
-    /// Directory of the results [default: output/PROBLEM].
-    #[arg(long)]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    directory: DirectoryOptions,
     /// How pictures are stored.
     #[arg(long, value_enum, default_value = "svg")]
     format: FormatOption,
@@ -80,34 +83,43 @@ pub(crate) fn converge(arguments: &Arguments) -> Result<(), Failure> {
         },
         initial,
     };
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new("output").join(description.name));
-    output::directory(&out)?;
-    let steps = plan.t_end
-        / plan
-            .step_sizes
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
-    let bar = progress::bar(plan.step_sizes.len() as u64, 2.0 * steps);
-    let study = convergence::study(problem, &plan, || bar.inc(1))?;
-    bar.finish_and_clear();
-    let csv = write(&out.join("convergence.csv"), problem, &study)?;
-    print(problem, &study)?;
-    output::announce(&[csv])?;
-    let picture = output::picture(
-        &out,
-        "convergence",
-        &picture(problem, method, &study),
-        arguments.format.into(),
+    let mut out = arguments.directory.open(
+        Path::new("output").join(description.name).join("converge"),
+        &["convergence"],
+        request(problem, &plan),
     )?;
-    output::announce(&[picture])?;
-    match study.stopped.first() {
-        Some(stopped) => Err(Failure::Stopped(stopped.to_string())),
-        None => Ok(()),
-    }
+    interrupt::listen()?;
+    let progress = Progress::new(description.name);
+    let study = convergence::study(problem, &plan, &mut |share| progress.at(share))?;
+    progress.finish();
+    out.add(write(&out, problem, &study)?);
+    let picture = picture(problem, method, &study);
+    out.picture("convergence", &picture, arguments.format.into())?;
+    print(problem, &study)?;
+    let outcome = match (study.stopped.first(), study.step_sizes.len()) {
+        (_, done) if done < plan.step_sizes.len() => Err(Failure::Interrupted(format!(
+            "after {done} of {} step sizes",
+            plan.step_sizes.len()
+        ))),
+        (Some(stopped), _) => Err(Failure::Stopped(stopped.to_string())),
+        (None, _) => Ok(()),
+    };
+    out.finish(&outcome)?;
+    outcome
+}
+
+/// What decides the results.
+fn request(problem: &Problem, plan: &Plan) -> Value {
+    let mut request = directory::of_problem(problem);
+    let own = json!({
+        "scheme": plan.method.name(),
+        "initial state": plan.initial,
+        "after": plan.after,
+        "step sizes": plan.step_sizes,
+        "end": plan.t_end,
+    });
+    directory::add(&mut request, own);
+    request
 }
 
 /// p, where errors are O(τᵖ).
@@ -188,18 +200,16 @@ pub(crate) fn quantities(problem: &Problem, study: &Study) -> Vec<(usize, String
     quantities
 }
 
-fn write(path: &Path, problem: &Problem, study: &Study) -> Result<PathBuf, Failure> {
-    let mut csv = Csv::create(
-        path.to_owned(),
-        ["transitions", "quantity", "step_size", "error"],
-    )?;
+fn write(out: &Directory, problem: &Problem, study: &Study) -> Result<PathBuf, Failure> {
+    let header = ["transitions", "quantity", "step_size", "error"];
+    let mut csv = out.csv("convergence.csv", header)?;
     for (transitions, name, errors) in quantities(problem, study) {
         for (tau, error) in study.step_sizes.iter().zip(errors) {
             csv.row([
                 transitions.to_string(),
                 name.clone(),
-                tau.to_string(),
-                error.to_string(),
+                output::number(*tau),
+                output::number(error),
             ])?;
         }
     }
@@ -307,7 +317,7 @@ fn picture(problem: &Problem, method: MethodName, study: &Study) -> Picture {
                     label,
                     curve(study, &crossing.errors),
                     Stroke::Marked,
-                    COLOURS[k % COLOURS.len()],
+                    Look::nth(k),
                 );
             }
         }
@@ -329,7 +339,7 @@ fn picture(problem: &Problem, method: MethodName, study: &Study) -> Picture {
                 label,
                 curve(study, &rows[k][part].1),
                 Stroke::Marked,
-                COLOURS[k % COLOURS.len()],
+                Look::nth(k),
             );
         }
         panel.slope(order, 0);

@@ -1,5 +1,6 @@
-//! `pws ensemble PROBLEM`: from many initial states and parameters to where they end.
+//! `pws ensemble PROBLEM`, `pws ensemble FILE`: from many initial states and parameters to where they end.
 
+mod cells;
 mod members;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -12,11 +13,15 @@ use std::time::Instant;
 
 use dmm_problems::method::MethodName;
 use dmm_problems::problem::{Parallelism, Problem, Run, Start};
+use serde_json::json;
 
+use crate::directory::{self, Directory};
 use crate::failure::Failure;
 use crate::input;
+use crate::interrupt;
 use crate::output;
-use crate::scheme::{self, SchemeOptions};
+use crate::progress::Progress;
+use crate::scheme::{self, EnsembleSchemeOptions};
 use members::Members;
 use results::{Results, Waiting};
 
@@ -27,7 +32,7 @@ pub(crate) struct Arguments {
     #[arg(value_name = "PROBLEM|FILE")]
     problem: String,
     #[command(flatten)]
-    scheme: SchemeOptions,
+    scheme: EnsembleSchemeOptions,
     /// Leave the level of the conserved quantities to rounding.
     #[arg(long)]
     no_level_correction: bool,
@@ -47,6 +52,10 @@ pub(crate) struct Arguments {
     /// output/PROBLEM/ensemble.csv].
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Overwrite other results that are there. Those of the same request, as the record beside the
+    /// file (`ensemble.csv.run.json`) tells it, are overwritten anyway.
+    #[arg(long)]
+    force: bool,
     /// Threads [default: one for each core].
     #[arg(long, value_parser = input::count)]
     threads: Option<u64>,
@@ -54,7 +63,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     no_lanes: bool,
     /// Measure instead: in a register against one at a time, all cores against one.
-    #[arg(long, conflicts_with_all = ["threads", "no_lanes", "out"])]
+    #[arg(long, conflicts_with_all = ["threads", "no_lanes", "out", "force"])]
     bench: bool,
 }
 
@@ -92,9 +101,18 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
             .join("ensemble.csv")
     };
     let out = arguments.out.clone().unwrap_or_else(default_out);
-    if let Some(directory) = out.parent() {
-        output::directory(directory)?;
-    }
+    let (directory, file) = place(&out)?;
+    let mut request = directory::of_run(problem, &run);
+    let own = json!({
+        "members": arguments.members,
+        "parameter values": arguments.parameters,
+        "initial values": arguments.initial,
+    });
+    directory::add(&mut request, own);
+    let record = format!("{file}.run.json");
+    let files = [file.to_owned()];
+    let mut directory = Directory::open(directory, &record, &files, request, arguments.force)?;
+    interrupt::listen()?;
     let parallelism = Parallelism {
         threads: arguments
             .threads
@@ -103,9 +121,33 @@ pub(crate) fn ensemble(arguments: &Arguments) -> Result<(), Failure> {
     };
     let mut results = Results::create(problem, out, members.count)?;
     let start = Instant::now();
-    integrate(problem, &run, parallelism, members, &mut results)?;
+    let written = integrate(problem, &run, parallelism, members, &mut results);
     let seconds = start.elapsed().as_secs_f64();
-    results.finish(problem, &run, seconds)
+    let (file, finished) = results.finish(problem, &run, seconds)?;
+    directory.add(file);
+    let outcome = written.and(finished);
+    directory.finish(&outcome)?;
+    outcome
+}
+
+/// The directory of a file of results, and its name.
+fn place(out: &Path) -> Result<(&Path, &str), Failure> {
+    let refused = |why: &str| Failure::Request(format!("{}: {why}", out.display()));
+    let ending = out.extension().and_then(|ending| ending.to_str());
+    match ending {
+        Some("csv" | "parquet") => {}
+        Some(other) => {
+            let text = format!("unknown ending `.{other}`; name a .csv or a .parquet file");
+            return Err(refused(&text));
+        }
+        None => return Err(refused("has no ending; name a .csv or a .parquet file")),
+    }
+    let name = out.file_name().and_then(|name| name.to_str());
+    let directory = out.parent().filter(|path| !path.as_os_str().is_empty());
+    match name {
+        Some(name) => Ok((directory.unwrap_or(Path::new(".")), name)),
+        None => Err(refused("is no name of a file")),
+    }
 }
 
 /// Integrates all members that are valid, and writes all.
@@ -126,16 +168,24 @@ fn integrate(
     problem.integrate_all(run, parallelism, &mut starts, &mut |outcome| {
         written = results.take(&waiting, Some(outcome));
         match written {
-            Ok(()) => ControlFlow::Continue(()),
+            Ok(()) => results.goes_on(),
             Err(_) => ControlFlow::Break(()),
         }
     });
     written?;
+    if interrupt::is_requested() {
+        return Err(Failure::Interrupted(format!(
+            "after {} trajectories",
+            results.members()
+        )));
+    }
     results.take(&waiting, None)
 }
 
 /// Runs of each kind that are compared.
 const ROUNDS: usize = 5;
+/// About the share of a round that comes before each kind.
+const BEFORE: [f64; 3] = [0.0, 0.55, 0.85];
 
 /// Trajectories per second in lanes and not, on one core and on all.
 fn bench(problem: &Problem, run: &Run, members: Members) -> Result<(), Failure> {
@@ -148,8 +198,15 @@ fn bench(problem: &Problem, run: &Run, members: Members) -> Result<(), Failure> 
     ];
     // interleaved, so that a slow moment is everybody's
     let mut fastest = [f64::INFINITY; 3];
-    for _ in 0..ROUNDS {
-        for ((_, parallelism), fastest) in kinds.iter().zip(&mut fastest) {
+    interrupt::listen()?;
+    let progress = Progress::new(problem.description().name);
+    for round in 0..ROUNDS {
+        for (((_, parallelism), before), fastest) in kinds.iter().zip(BEFORE).zip(&mut fastest) {
+            let share = (round as f64 + before) / ROUNDS as f64;
+            if progress.at(share).is_break() {
+                let text = format!("in round {} of {ROUNDS}", round + 1);
+                return Err(Failure::Interrupted(text));
+            }
             let start = Instant::now();
             let mut members = starts.iter().cloned();
             problem.integrate_all(run, *parallelism, &mut members, &mut |_| {
@@ -158,6 +215,7 @@ fn bench(problem: &Problem, run: &Run, members: Members) -> Result<(), Failure> 
             *fastest = fastest.min(start.elapsed().as_secs_f64());
         }
     }
+    progress.finish();
     let mut table = output::Table::new(1, ["", "trajectories/s", "ratio"]);
     let [alone, ..] = fastest;
     for ((name, _), seconds) in kinds.iter().zip(fastest) {

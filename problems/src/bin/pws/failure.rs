@@ -8,6 +8,8 @@ use dmm_problems::registry::Unknown;
 use dmm_problems::work_precision::GoalError;
 use thiserror::Error;
 
+use crate::interrupt;
+
 /// Why a command ends without success.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
@@ -36,6 +38,9 @@ pub(crate) enum Failure {
     /// The integration stopped before its end.
     #[error("{0}")]
     Stopped(String),
+    /// Ctrl-C was pressed.
+    #[error("interrupted {0}: the files have what was computed until then")]
+    Interrupted(String),
     /// Nothing reads standard output any more.
     #[error("standard output is closed")]
     ReaderGone,
@@ -46,6 +51,7 @@ impl Failure {
     pub(crate) fn status(&self) -> u8 {
         match self {
             Self::Stopped(_) => 1,
+            Self::Interrupted(_) => interrupt::STATUS,
             Self::ReaderGone => 0,
             Self::Request(_) | Self::Unknown(_) | Self::Write { .. } | Self::Read { .. } => 2,
         }

@@ -1,39 +1,124 @@
-//! Systems declared in a file: Rust with `pws!` in it, or a declaration alone.
+//! Systems declared in a file: Rust with `pws!` in it, or a declaration alone; and what is wrong
+//! with them, underlined in the source.
 
+use std::io::IsTerminal;
+use std::ops::Range;
 use std::path::Path;
 
+use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::text;
+use dmm_compiler::text::{self, Message};
 use proc_macro2::TokenStream;
 
 use crate::failure::Failure;
 
-/// The text of a file.
-pub(crate) fn read(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path)
-        .map_err(|error| Failure::Request(format!("cannot read {}: {error}", path.display())))
+/// A file that declares systems.
+pub(crate) struct Source<'a> {
+    path: &'a Path,
+    text: String,
 }
 
-/// The declarations in a file, in their order.
-pub(crate) fn declarations(path: &Path) -> Result<Vec<TokenStream>, Failure> {
-    text::declarations(&read(path)?)
-        .map_err(|message| Failure::Request(format!("{}:{message}", path.display())))
-}
-
-/// Writes every warning to standard error with its place in the file.
-pub(crate) fn warn(path: &Path, diagnostics: &Diagnostics) {
-    for warning in text::warnings(diagnostics) {
-        eprintln!("{}:{warning}", path.display());
+impl<'a> Source<'a> {
+    /// Reads a file.
+    pub(crate) fn read(path: &'a Path) -> Result<Self, Failure> {
+        let text = std::fs::read_to_string(path).map_err(|error| Failure::read(path, error))?;
+        // no places are counted in a mark of the encoding
+        let text = match text.strip_prefix('\u{feff}') {
+            Some(rest) => rest.to_owned(),
+            None => text,
+        };
+        Ok(Self { path, text })
     }
-}
 
-/// Writes every error to standard error with its place in the file, and sums them up.
-pub(crate) fn report(path: &Path, diagnostics: &[Diagnostics]) -> Failure {
-    let mut count = 0;
-    for message in diagnostics.iter().flat_map(text::messages) {
-        count += 1;
-        eprintln!("{}:{message}", path.display());
+    /// What is in it.
+    pub(crate) fn text(&self) -> &str {
+        &self.text
     }
-    let plural = if count == 1 { "" } else { "s" };
-    Failure::Request(format!("{count} error{plural} in {}", path.display()))
+
+    /// The declarations, in their order.
+    pub(crate) fn declarations(&self) -> Result<Vec<TokenStream>, Failure> {
+        text::declarations(&self.text).map_err(|message| {
+            let place = self.offset(message.line, message.column);
+            self.show(Level::ERROR, place..place, &message.text);
+            self.summary(1, &message.text)
+        })
+    }
+
+    /// The only declaration.
+    pub(crate) fn declaration(&self) -> Result<TokenStream, Failure> {
+        let mut declarations = self.declarations()?;
+        match (declarations.pop(), declarations.len()) {
+            (Some(only), 0) => Ok(only),
+            (_, others) => Err(Failure::Request(format!(
+                "{} declares {} systems: leave one in the file",
+                self.path.display(),
+                others + 1
+            ))),
+        }
+    }
+
+    /// Shows every error on standard error where it is, and sums them up.
+    pub(crate) fn report(&self, wrong: &[Diagnostics]) -> Failure {
+        let errors: Vec<_> = wrong.iter().flat_map(Diagnostics::errors).collect();
+        for error in &errors {
+            self.show(Level::ERROR, error.span().byte_range(), &error.to_string());
+        }
+        let last = errors.last().map(ToString::to_string).unwrap_or_default();
+        self.summary(errors.len(), &last)
+    }
+
+    /// Shows a warning on standard error at a line and a column.
+    pub(crate) fn warn_at(&self, (line, column): (usize, usize), text: &str) {
+        let place = self.offset(line, column);
+        self.show(Level::WARNING, place..place, text);
+    }
+
+    /// Shows every warning on standard error where it is.
+    pub(crate) fn warn(&self, diagnostics: &Diagnostics) {
+        for warning in diagnostics.warnings() {
+            let text = warning.to_string();
+            self.show(Level::WARNING, warning.span().byte_range(), &text);
+        }
+    }
+
+    /// Writes a message to standard error with the source that it is about.
+    fn show(&self, level: Level<'_>, place: Range<usize>, message: &str) {
+        let is_terminal = std::io::stderr().is_terminal();
+        let is_coloured = is_terminal && std::env::var_os("NO_COLOR").is_none();
+        let renderer = if is_coloured {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let path = self.path.display().to_string();
+        let end = self.text.len();
+        let place = place.start.min(end)..place.end.min(end);
+        let snippet = Snippet::source(&self.text)
+            .path(path)
+            .annotation(AnnotationKind::Primary.span(place));
+        let group = level.primary_title(message).element(snippet);
+        eprintln!("{}\n", renderer.render(&[group]));
+    }
+
+    /// How many errors there are, and where to read more about the last.
+    fn summary(&self, count: usize, last: &str) -> Failure {
+        let plural = if count == 1 { "" } else { "s" };
+        let mut text = format!("{count} error{plural} in {}", self.path.display());
+        let code = last
+            .strip_suffix(']')
+            .and_then(|text| text.rsplit_once('['));
+        if let Some((_, code)) = code {
+            text.push_str(&format!(" (`pws explain {code}` says more)"));
+        }
+        Failure::Request(text)
+    }
+
+    /// The byte at a line and a column, both from 1.
+    fn offset(&self, line: usize, column: usize) -> usize {
+        let lines = self.text.split_inclusive('\n');
+        let before: usize = lines.take(line.saturating_sub(1)).map(str::len).sum();
+        let line = self.text.get(before..).unwrap_or_default();
+        let mut places = line.char_indices().map(|(place, _)| place);
+        before + places.nth(column.saturating_sub(1)).unwrap_or(line.len())
+    }
 }

@@ -9,7 +9,7 @@ use dmm_problems::registry::{self, Unknown};
 use dmm_runtime::Model;
 
 use crate::failure::Failure;
-use crate::file;
+use crate::file::Source;
 use crate::output::grouped;
 
 /// How pictures are stored.
@@ -66,17 +66,17 @@ pub(crate) fn problem(name: &str, parameters: &[String]) -> Result<Problem, Fail
 
 /// The system that a file declares.
 fn own(path: &Path) -> Result<Problem, Failure> {
-    let model = Model::compile(&file::read(path)?).map_err(|error| {
-        let messages = error.messages();
-        for (line, column, text) in messages {
-            eprintln!("{}:{line}:{column}: {text}", path.display());
+    let source = Source::read(path)?;
+    let declaration = source.declaration()?;
+    let model = Model::compile(source.text()).map_err(|error| {
+        // once more, for the places of the errors
+        match dmm_compiler::read(declaration) {
+            Ok(_) => Failure::Request(format!("{}: {error}", path.display())),
+            Err(wrong) => source.report(&[wrong]),
         }
-        let count = error.messages().count();
-        let plural = if count == 1 { "" } else { "s" };
-        Failure::Request(format!("{count} error{plural} in {}", path.display()))
     })?;
     for (line, column, text) in model.warnings() {
-        eprintln!("{}:{line}:{column}: {text}", path.display());
+        source.warn_at((line, column), text);
     }
     Problem::own(model).map_err(|error| Failure::Request(error.to_string()))
 }

@@ -1,17 +1,21 @@
 //! `pws`: runs the reference problems and the studies on them.
 //!
-//! Results are CSV files and pictures in a directory; tables and summaries go to standard
-//! output. What is wrong is one line on standard error: exit status 2 if the request was
-//! (options, names, files), 1 if the integration stopped before its end.
+//! Results are CSV files and pictures in a directory, with a record of what they are results of;
+//! tables and summaries go to standard output. What is wrong is one line on standard error, for
+//! errors in a declaration with the source before it: exit status 2 if the request was wrong
+//! (options, names, files), 1 if the integration stopped before its end, 130 if Ctrl-C ended it.
 
 mod bench;
 mod conserve;
 mod converge;
+mod directory;
 mod ensemble;
 mod explain;
 mod failure;
 mod file;
+mod help;
 mod input;
+mod interrupt;
 mod invariants;
 mod list;
 mod output;
@@ -20,6 +24,7 @@ mod portrait;
 mod progress;
 mod run;
 mod scheme;
+mod series;
 mod show;
 mod stress;
 
@@ -44,18 +49,24 @@ enum Command {
     /// List the problems.
     List,
     /// Show a problem: declaration, multipliers, discrete vector field and chosen strategy.
+    #[command(after_help = help::problems())]
     Show(show::Arguments),
     /// Explain an error of `pws!` by its number: cause and remedy.
     Explain(explain::Arguments),
     /// Integrate a problem; write points, transitions and pictures.
+    #[command(after_help = help::problems())]
     Run(run::Arguments),
     /// Integrate a problem from many initial states and parameters; write where they end.
+    #[command(after_help = help::problems())]
     Ensemble(ensemble::Arguments),
     /// Measure errors against the step size, before and after transitions.
+    #[command(after_help = help::problems())]
     Converge(converge::Arguments),
     /// Measure how well every problem's conserved quantities are kept over a long run.
+    #[command(after_help = help::problems())]
     Conserve(conserve::Arguments),
     /// Measure the time of every scheme against its final error.
+    #[command(after_help = help::problems())]
     Bench(bench::Arguments),
     /// Push every scheme to the edge of what it can do.
     Stress(stress::Arguments),

@@ -5,8 +5,6 @@ use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use dmm_problems::picture::{Format, Picture};
-
 use crate::failure::Failure;
 
 /// The directory `path`, made if it does not exist.
@@ -58,20 +56,6 @@ impl Csv {
     }
 }
 
-/// Writes `NAME.svg` or `NAME.png` into a directory.
-pub(crate) fn picture(
-    directory: &Path,
-    name: &str,
-    picture: &Picture,
-    format: Format,
-) -> Result<PathBuf, Failure> {
-    let path = directory.join(format!("{name}.{}", format.extension()));
-    match picture.write(&path, format) {
-        Ok(()) => Ok(path),
-        Err(error) => Err(Failure::write(&path, error)),
-    }
-}
-
 /// Says which files were written.
 pub(crate) fn announce(paths: &[PathBuf]) -> io::Result<()> {
     let mut out = io::stdout().lock();
@@ -108,7 +92,8 @@ pub(crate) fn groups<'a>(names: &[&'a str]) -> Vec<(&'a str, Range<usize>)> {
     groups
 }
 
-/// A number as people write it: small and large ones with an exponent.
+/// A number as people write it: small and large ones with an exponent, and no more digits than it
+/// takes to read the same number back.
 pub(crate) fn number(value: f64) -> String {
     if value != 0.0 && value.is_finite() && !(1e-4..1e16).contains(&value.abs()) {
         format!("{value:e}")

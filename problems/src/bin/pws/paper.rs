@@ -6,75 +6,81 @@
 
 mod conserved;
 mod orders;
+mod report;
 mod trajectories;
 
-use std::path::PathBuf;
+use serde_json::json;
 
-use dmm_problems::picture::Format;
-
+use crate::directory::DirectoryOptions;
 use crate::failure::Failure;
 use crate::input::FormatOption;
-use crate::output::{self, Csv, Table};
+use crate::interrupt;
+use crate::output::Table;
+use crate::progress::Progress;
+use report::{CONSERVED, Report, STATES, SYSTEMS, TIMES, TRAJECTORIES};
 
 /// Where to.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Directory of the results.
-    #[arg(long, default_value = "output/paper")]
-    out: PathBuf,
+    #[command(flatten)]
+    directory: DirectoryOptions,
     /// How pictures are stored.
     #[arg(long, value_enum, default_value = "svg")]
     format: FormatOption,
 }
 
-/// The two systems of the paper, with the numbers of their figures: crossing times, states,
-/// conserved quantity.
-const SYSTEMS: [(&str, [u32; 3]); 2] = [("harmonic", [3, 4, 5]), ("elliptic", [6, 7, 8])];
-
-/// Where the results go, and what is said about them in the end.
-struct Report {
-    out: PathBuf,
-    format: Format,
-    files: Vec<PathBuf>,
-    rows: Vec<[String; 4]>,
-}
-
-impl Report {
-    /// A line of the table paper / ours.
-    fn row(&mut self, figure: u32, what: impl Into<String>, paper: &str, ours: impl Into<String>) {
-        self.rows.push([
-            format!("Fig. {figure}"),
-            what.into(),
-            paper.to_owned(),
-            ours.into(),
-        ]);
-    }
-}
-
 /// Makes all figures.
 pub(crate) fn paper(arguments: &Arguments) -> Result<(), Failure> {
-    output::directory(&arguments.out)?;
+    let stems: Vec<String> = stems().collect();
+    let stems: Vec<&str> = stems.iter().map(String::as_str).collect();
     let mut report = Report {
-        out: arguments.out.clone(),
+        out: arguments.directory.open(
+            "output/paper",
+            &stems,
+            json!({ "figures": [2, 3, 4, 5, 6, 7, 8] }),
+        )?,
         format: arguments.format.into(),
-        files: Vec::new(),
         rows: Vec::new(),
+        progress: Progress::new("figures"),
+        done: 0.0,
+        weight: 0.0,
     };
-    trajectories::figure(&mut report)?;
-    for (name, [times, states, conserved]) in SYSTEMS {
-        orders::crossing_times(&mut report, name, times)?;
-        orders::states(&mut report, name, states)?;
-        conserved::figure(&mut report, name, conserved)?;
-    }
+    interrupt::listen()?;
+    let outcome = figures(&mut report);
+    report.progress.finish();
+    // the figures that were made are compared, whatever became of the others
     let header = ["figure", "quantity", "paper", "ours"];
-    let mut csv = Csv::create(report.out.join("comparison.csv"), header)?;
+    let mut csv = report.out.csv("comparison.csv", header)?;
     let mut table = Table::new(4, header);
     for row in &report.rows {
         csv.row(row)?;
         table.row(row.clone());
     }
-    report.files.push(csv.finish()?);
+    report.out.add(csv.finish()?);
     table.print()?;
-    output::announce(&report.files)?;
+    report.out.finish(&outcome)?;
+    outcome
+}
+
+fn figures(report: &mut Report) -> Result<(), Failure> {
+    report.part(TRAJECTORIES, trajectories::figure)?;
+    for (name, [times, states, conserved]) in SYSTEMS {
+        report.part(TIMES, |report| orders::crossing_times(report, name, times))?;
+        report.part(STATES, |report| orders::states(report, name, states))?;
+        report.part(CONSERVED, |report| {
+            conserved::figure(report, name, conserved)
+        })?;
+    }
     Ok(())
+}
+
+/// What the files are called.
+fn stems() -> impl Iterator<Item = String> {
+    let own = SYSTEMS.iter().flat_map(|(name, numbers)| {
+        let kinds = ["crossing_time", "perturbed", "conserved"];
+        let files = numbers.iter().zip(kinds);
+        files.map(move |(number, kind)| format!("fig{number}_{name}_{kind}"))
+    });
+    let common = ["fig2_trajectories", "comparison"].map(str::to_owned);
+    common.into_iter().chain(own)
 }

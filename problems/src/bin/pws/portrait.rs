@@ -1,6 +1,8 @@
-//! Pictures of a run: phase portrait, time series, conservation error.
+//! Phase portraits: trajectories in the plane of two states.
 
-use dmm_problems::picture::{Axis, COLOURS, GREY, Legend, Panel, Scale, Stroke, superscript};
+use std::collections::BTreeSet;
+
+use dmm_problems::picture::{Axis, GREY, Look, Panel, Scale, Stroke};
 use dmm_problems::problem::Problem;
 
 /// A point of the trajectory, kept for the pictures.
@@ -11,29 +13,41 @@ pub(crate) struct Kept {
     pub(crate) region: usize,
 }
 
-/// The trajectory in the plane of two states, each region in its colour, with the interface
-/// where it is a curve in that plane.
+/// What a phase portrait shows of a run.
+pub(crate) struct Trajectory<'a> {
+    pub(crate) points: &'a [Kept],
+    pub(crate) crossings: &'a [Kept],
+    /// Whether the last point is where the run ended.
+    pub(crate) ends_there: bool,
+}
+
+/// The trajectory in the plane of two states, each region in its colour, with the interfaces that
+/// are curves in that plane, and with start, end and crossings.
 pub(crate) fn phase(
     problem: &Problem,
-    points: &[Kept],
+    trajectory: &Trajectory<'_>,
     plane: (usize, usize),
     title: &str,
 ) -> Panel {
-    phases(problem, &[points], plane, title)
+    let mut panel = phases(problem, &[trajectory.points], plane, title);
+    panel.equal_aspect = true;
+    marks(&mut panel, trajectory, plane);
+    panel
 }
 
 /// Several trajectories in one panel.
 pub(crate) fn phases(
     problem: &Problem,
     trajectories: &[impl AsRef<[Kept]>],
-    (horizontal, vertical): (usize, usize),
+    plane: (usize, usize),
     title: &str,
 ) -> Panel {
+    let (horizontal, vertical) = plane;
     let states = problem.states();
     let axis = |state: usize| Axis::new(*states.get(state).unwrap_or(&""), Scale::Linear);
     let mut panel = Panel::new(title, axis(horizontal), axis(vertical));
-    let points = trajectories.iter().map(AsRef::as_ref);
-    let stays: Vec<&[Kept]> = points.flat_map(split_by_region).collect();
+    let points = || trajectories.iter().map(AsRef::as_ref);
+    let stays: Vec<&[Kept]> = points().flat_map(split_by_region).collect();
     let names = problem.regions();
     for (region, name) in names.iter().enumerate() {
         let mut label = (names.len() > 1).then(|| (*name).to_owned());
@@ -41,14 +55,70 @@ pub(crate) fn phases(
             let curve = stay
                 .iter()
                 .map(|point| (point.x[horizontal], point.x[vertical]));
-            let colour = COLOURS[region % COLOURS.len()];
-            panel.curve(label.take(), curve.collect(), Stroke::Solid, colour);
+            let curve = curve.collect();
+            panel.curve(label.take(), curve, Stroke::Solid, Look::nth(region));
         }
     }
-    if states.len() == 2 {
-        interfaces(problem, &mut panel, horizontal == 0);
-    }
+    let samples: Vec<&Kept> = points().flat_map(sampled).collect();
+    interfaces(problem, &mut panel, &samples, plane);
     panel
+}
+
+/// Marks in a picture of this many times this many places; no place is marked twice.
+const PLACES: f64 = 120.0;
+
+/// Adds start, end and crossings.
+fn marks(panel: &mut Panel, trajectory: &Trajectory<'_>, (horizontal, vertical): (usize, usize)) {
+    let place = |point: &Kept| (point.x[horizontal], point.x[vertical]);
+    let Some(((x_low, x_high), (y_low, y_high))) = bounds(panel) else {
+        return;
+    };
+    let mut marked = BTreeSet::new();
+    let crossings = trajectory.crossings.iter().map(place);
+    let crossings = crossings.filter(|(x, y)| {
+        let cell = |value: f64, low: f64, high: f64| (PLACES * (value - low) / (high - low)) as i64;
+        marked.insert((cell(*x, x_low, x_high), cell(*y, y_low, y_high)))
+    });
+    let crossings: Vec<(f64, f64)> = crossings.collect();
+    if !crossings.is_empty() {
+        let label = Some("crossing".to_owned());
+        panel.curve(label, crossings, Stroke::Crosses, BLACK);
+    }
+    let mut mark = |name: &str, point: Option<&Kept>, stroke| {
+        let point = point.map(place);
+        panel.curve(
+            Some(name.to_owned()),
+            point.into_iter().collect(),
+            stroke,
+            BLACK,
+        );
+    };
+    mark("start", trajectory.points.first(), Stroke::Circles);
+    if trajectory.ends_there {
+        mark("end", trajectory.points.last(), Stroke::Squares);
+    }
+}
+
+/// Of marks.
+const BLACK: &str = "#222222";
+
+/// The ranges of a panel's curves.
+fn bounds(panel: &Panel) -> Option<((f64, f64), (f64, f64))> {
+    let all = || panel.curves.iter().flat_map(|curve| &curve.points);
+    let range = |value: fn(&(f64, f64)) -> f64| {
+        let low = all().map(value).fold(f64::INFINITY, f64::min);
+        let high = all().map(value).fold(f64::NEG_INFINITY, f64::max);
+        (low < high).then_some((low, high))
+    };
+    range(|point| point.0).zip(range(|point| point.1))
+}
+
+/// Points of a trajectory at which functions are compared.
+const SAMPLES: usize = 12;
+
+/// A few points all over a trajectory.
+fn sampled(points: &[Kept]) -> impl Iterator<Item = &Kept> {
+    points.iter().step_by(points.len().div_ceil(SAMPLES).max(1))
 }
 
 /// A stay in a region begins with the far side of a transition, whose point it shares with
@@ -60,30 +130,47 @@ fn split_by_region(points: &[Kept]) -> impl Iterator<Item = &[Kept]> {
 /// How far beyond the trajectory an interface is drawn.
 const MARGIN: f64 = 0.1;
 
-/// Adds the zero set of each switching function at t = 0, for a system of two states.
-fn interfaces(problem: &Problem, panel: &mut Panel, in_order: bool) {
-    let all = || panel.curves.iter().flat_map(|curve| &curve.points);
-    let bounds = |value: fn(&(f64, f64)) -> f64| {
-        let low = all().map(value).fold(f64::INFINITY, f64::min);
-        let high = all().map(value).fold(f64::NEG_INFINITY, f64::max);
+/// Adds the zero set of each switching function that depends on the two states of the plane alone.
+fn interfaces(problem: &Problem, panel: &mut Panel, samples: &[&Kept], plane: (usize, usize)) {
+    let Some((xs, ys)) = bounds(panel) else {
+        return;
+    };
+    let wider = |(low, high): (f64, f64)| {
         let margin = MARGIN * (high - low);
         (low - margin, high + margin)
     };
-    let (xs, ys) = (bounds(|p| p.0), bounds(|p| p.1));
-    if !(xs.0 < xs.1 && ys.0 < ys.1) {
-        return;
-    }
     for (interface, name) in problem.interfaces().iter().enumerate() {
-        let g = |x: f64, y: f64| {
-            let state = if in_order { [x, y] } else { [y, x] };
-            problem.switching_function(interface, 0.0, &state)
+        // g with the other states and the time of a sample
+        let g = |sample: &Kept, x: f64, y: f64| {
+            let mut state = sample.x.clone();
+            state[plane.0] = x;
+            state[plane.1] = y;
+            problem.switching_function(interface, sample.t, &state)
         };
-        let zeros = zero_set(g, xs, ys);
-        // the entry of a line rather than of a dot
-        let first = zeros.first().copied().into_iter().collect();
-        panel.curve(Some(format!("interface {name}")), first, Stroke::Thin, GREY);
-        panel.curve(None, zeros, Stroke::Fine, GREY);
+        let (Some(first), true) = (samples.first(), lies_in_plane(&g, samples, plane)) else {
+            continue;
+        };
+        let zeros = zero_set(|x, y| g(first, x, y), wider(xs), wider(ys));
+        if !zeros.is_empty() {
+            let label = Some(format!("interface {name}"));
+            panel.curve(label, zeros, Stroke::Fine, GREY);
+        }
     }
+}
+
+/// Whether g has the same value at the places of the samples whatever the rest of the state and the
+/// time are.
+fn lies_in_plane(
+    g: &impl Fn(&Kept, f64, f64) -> f64,
+    samples: &[&Kept],
+    (horizontal, vertical): (usize, usize),
+) -> bool {
+    samples.iter().all(|place| {
+        let (x, y) = (place.x[horizontal], place.x[vertical]);
+        let own = g(place, x, y);
+        let mut others = samples.iter().map(|sample| g(sample, x, y));
+        others.all(|other| (other - own).abs() <= 1e-12 * own.abs().max(f64::MIN_POSITIVE))
+    })
 }
 
 /// Points of g = 0 on the edges of a fine grid.
@@ -112,136 +199,25 @@ fn zero_set(g: impl Fn(f64, f64) -> f64, xs: (f64, f64), ys: (f64, f64)) -> Vec<
     zeros
 }
 
-/// A longer legend would hide the curves.
-const MOST_LABELS: usize = 12;
-
-/// Every state against time.
-pub(crate) fn time_series(problem: &Problem, points: &[Kept], title: &str) -> Panel {
-    let label = match problem.states() {
-        [one] => (*one).to_owned(),
-        _ => "states".to_owned(),
-    };
-    let mut panel = Panel::new(
-        title,
-        Axis::new("t", Scale::Linear),
-        Axis::new(label, Scale::Linear),
-    );
-    let labelled = problem.states().len() <= MOST_LABELS;
-    if !labelled {
-        panel.legend = Legend::None;
-    }
-    for (state, name) in problem.states().iter().enumerate() {
-        let curve = points
-            .iter()
-            .map(|point| (point.t, point.x[state]))
-            .collect();
-        let colour = COLOURS[state % COLOURS.len()];
-        let label = labelled.then(|| (*name).to_owned());
-        panel.curve(label, curve, Stroke::Solid, colour);
-    }
-    panel
-}
-
-/// Errors against time, in units of a power of ten that suits them.
-pub(crate) fn errors(series: &[(String, Vec<(f64, f64)>)], what: &str, title: &str) -> Panel {
-    let all = || series.iter().flat_map(|(_, points)| points);
-    let largest = all()
-        .map(|p| p.1.abs())
-        .filter(|e| e.is_finite())
-        .fold(0.0, f64::max);
-    let exponent = if largest > 0.0 {
-        largest.log10().floor()
-    } else {
-        0.0
-    };
-    let unit = 10f64.powf(exponent);
-    let label = if exponent == 0.0 {
-        what.to_owned()
-    } else {
-        format!("{what} (×10{})", superscript(exponent as i64))
-    };
-    let mut panel = Panel::new(
-        title,
-        Axis::new("t", Scale::Linear),
-        Axis::new(label, Scale::Linear),
-    );
-    for (k, (name, points)) in series.iter().enumerate() {
-        let scaled = points.iter().map(|&(t, e)| (t, e / unit)).collect();
-        let label = (!name.is_empty()).then(|| name.clone());
-        panel.curve(label, scaled, Stroke::Thin, COLOURS[k % COLOURS.len()]);
-    }
-    if series.iter().all(|(name, _)| name.is_empty()) {
-        panel.legend = Legend::None;
-    }
-    panel
-}
-
-/// Points kept evenly over a run of unknown length: at most twice the capacity.
-///
-/// When there are too many, every second is dropped and the distance doubles; `keep` decides
-/// which of two neighbours stays.
-#[derive(Clone, Debug)]
-pub(crate) struct Thinned {
-    points: Vec<(f64, f64)>,
-    stride: u64,
-    offered: u64,
-}
-
-impl Thinned {
-    const CAPACITY: usize = 3000;
-
-    pub(crate) fn new() -> Self {
-        Self {
-            points: Vec::new(),
-            stride: 1,
-            offered: 0,
-        }
-    }
-
-    /// Of each `stride` points the one with the largest |value| is kept.
-    pub(crate) fn offer(&mut self, t: f64, value: f64) {
-        let starts = self.offered.is_multiple_of(self.stride);
-        self.offered += 1;
-        match self.points.last_mut() {
-            Some(last) if !starts => {
-                if value.abs() > last.1.abs() {
-                    *last = (t, value);
-                }
-            }
-            _ => self.points.push((t, value)),
-        }
-        if self.points.len() >= 2 * Self::CAPACITY {
-            let larger = |pair: &[(f64, f64)]| match pair {
-                [a, b] if b.1.abs() > a.1.abs() => *b,
-                _ => pair[0],
-            };
-            self.points = self.points.chunks(2).map(larger).collect();
-            self.stride *= 2;
-        }
-    }
-
-    pub(crate) fn points(&self) -> &[(f64, f64)] {
-        &self.points
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn thinning_keeps_the_extremes_and_the_order() {
-        let mut thinned = Thinned::new();
-        for k in 0..1_000_000 {
-            thinned.offer(f64::from(k), if k == 777_777 { -5.0 } else { 1.0 });
-        }
-        let points = thinned.points();
-        assert!(points.len() < 2 * Thinned::CAPACITY && points.len() >= Thinned::CAPACITY);
-        assert!(points.is_sorted_by_key(|p| p.0));
-        assert_eq!(
-            points.iter().filter(|p| **p == (777_777.0, -5.0)).count(),
-            1
-        );
+    fn an_interface_lies_in_the_plane_of_the_states_that_it_depends_on() {
+        let kept = |t: f64, x: [f64; 3]| Kept {
+            t,
+            x: x.to_vec(),
+            region: 0,
+        };
+        let points = [kept(0.0, [0.1, 0.2, 0.3]), kept(1.0, [1.1, -0.4, 2.0])];
+        let samples: Vec<&Kept> = points.iter().collect();
+        let sum = |at: &Kept, x: f64, y: f64| x + 2.0 * y + 0.0 * at.x[2];
+        let third = |at: &Kept, x: f64, _: f64| x - at.x[2];
+        let moving = |at: &Kept, x: f64, _: f64| x - at.t.sin();
+        assert!(lies_in_plane(&sum, &samples, (0, 1)));
+        assert!(!lies_in_plane(&third, &samples, (0, 1)));
+        assert!(!lies_in_plane(&moving, &samples, (0, 1)));
     }
 
     #[test]

@@ -1,20 +1,24 @@
-//! `pws run PROBLEM`
+//! `pws run PROBLEM`, `pws run FILE`
 
 mod recorder;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use dmm_problems::picture::{Format, Picture};
 use dmm_problems::problem::{Problem, Run};
 use dmm_runtime::Statistics;
+use serde_json::json;
 
+use crate::directory::{self, Directory, DirectoryOptions};
 use crate::failure::Failure;
 use crate::input::{self, FormatOption};
+use crate::interrupt;
 use crate::output;
-use crate::portrait;
+use crate::portrait::{self, Trajectory};
 use crate::scheme::{self, SchemeOptions};
+use crate::series;
 use recorder::{Finished, Recorder};
 
 /// What to integrate.
@@ -44,9 +48,8 @@ pub(crate) struct Arguments {
     /// The two states of the phase portrait [default: the first two].
     #[arg(long, value_name = "x,y")]
     plane: Option<String>,
-    /// Directory of the results [default: output/PROBLEM].
-    #[arg(long)]
-    out: Option<PathBuf>,
+    #[command(flatten)]
+    directory: DirectoryOptions,
     /// How pictures are stored.
     #[arg(long, value_enum, default_value = "svg")]
     format: FormatOption,
@@ -66,20 +69,39 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let plane = plane(problem, arguments.plane.as_deref())?;
     check(problem, &run)?;
     let run = scheme::with_even_output(run)?;
-    let default_out = || Path::new("output").join(problem.description().name);
-    let out = arguments.out.clone().unwrap_or_else(default_out);
-    output::directory(&out)?;
+    let mut request = directory::of_run(problem, &run);
+    directory::add(&mut request, json!({ "every": arguments.every }));
+    let default = Path::new("output").join(problem.description().name);
+    let mut out = arguments
+        .directory
+        .open(default.join("run"), &FILES, request)?;
+    interrupt::listen()?;
     let mut recorder = Recorder::create(problem, &run, arguments.every, &out)?;
+    let start = Instant::now();
     let result = problem.integrate(&run, &mut recorder);
-    // whatever happened, what was computed is stored
-    let finished = recorder.finish()?;
-    let pictures = pictures(problem, &finished, plane, &out, arguments.format.into());
-    summarise(problem, &run, &finished, result.as_ref().ok())?;
-    output::announce(&finished.files)?;
-    output::announce(&pictures?)?;
-    result?;
-    Ok(())
+    let elapsed = start.elapsed();
+    // whatever happened, what was computed is stored, drawn and told
+    let mut finished = recorder.finish();
+    finished.files.drain(..).for_each(|file| out.add(file));
+    let drawn = pictures(problem, &finished, plane, &mut out, arguments.format.into());
+    let told = summarise(problem, &run, &finished);
+    let outcome = match (result, finished.failure.take()) {
+        (_, Some(failure)) => Err(failure),
+        (Err(error), None) => Err(error.into()),
+        (Ok(_), None) if finished.is_interrupted => {
+            let t = output::number(finished.t);
+            Err(Failure::Interrupted(format!("at t = {t}")))
+        }
+        (Ok(statistics), None) => drawn
+            .and(told)
+            .and_then(|()| time(problem, &run, &statistics, elapsed)),
+    };
+    out.finish(&outcome)?;
+    outcome
 }
+
+/// What the files of a run are called.
+const FILES: [&str; 5] = ["points", "transitions", "phase", "series", "conservation"];
 
 /// Refuses what the runtime would refuse, before any file is touched.
 fn check(problem: &Problem, run: &Run) -> Result<(), Failure> {
@@ -114,45 +136,48 @@ fn pictures(
     problem: &Problem,
     finished: &Finished,
     plane: (usize, usize),
-    out: &Path,
+    out: &mut Directory,
     format: Format,
-) -> Result<Vec<PathBuf>, Failure> {
+) -> Result<(), Failure> {
     let kept = &finished.kept;
     let shown = match kept.last() {
         Some(last) if last.t < finished.t * 0.99 => format!(" (until t = {:.3})", last.t),
         _ => String::new(),
     };
     let title = problem.description().title;
-    let mut phase = portrait::phase(problem, kept, plane, &format!("phase portrait{shown}"));
-    phase.equal_aspect = true;
-    let series = portrait::time_series(problem, kept, &format!("time series{shown}"));
-    let errors = portrait::errors(&finished.errors, "ψ − ψ at entry", "conservation error");
-    let wide = |panel| Picture {
-        panel_size: (760.0, 400.0),
-        ..Picture::row(title, vec![panel])
+    let trajectory = Trajectory {
+        points: kept,
+        crossings: &finished.crossings,
+        ends_there: shown.is_empty(),
+    };
+    let phase = portrait::phase(
+        problem,
+        &trajectory,
+        plane,
+        &format!("phase portrait{shown}"),
+    );
+    let series = series::time_series(problem, kept, &format!("time series{shown}"));
+    let errors = series::errors(&finished.errors, "ψ − ψ at entry", "conservation error");
+    let wide = |panels| Picture {
+        panel_size: (760.0, 330.0),
+        columns: 1,
+        ..Picture::row(title, panels)
     };
     let square = |panel| Picture {
-        panel_size: (560.0, 560.0),
+        panel_size: (560.0, 500.0),
         ..Picture::row(title, vec![panel])
     };
-    Ok(vec![
-        output::picture(out, "phase", &square(phase), format)?,
-        output::picture(out, "series", &wide(series), format)?,
-        output::picture(out, "conservation", &wide(errors), format)?,
-    ])
+    let drawn = [
+        out.picture("phase", &square(phase), format),
+        out.picture("series", &wide(series), format),
+        out.picture("conservation", &wide(vec![errors]), format),
+    ];
+    // one that cannot be drawn does not keep the others from it
+    drawn.into_iter().collect()
 }
 
-/// Steps of the run that is timed.
-const LARGEST_TIMED: f64 = 1e6;
-/// A shorter run is repeated: what is new to the processor is slow.
-const LEAST_TIMED: Duration = Duration::from_millis(20);
-
-fn summarise(
-    problem: &Problem,
-    run: &Run,
-    finished: &Finished,
-    statistics: Option<&Statistics>,
-) -> Result<(), Failure> {
+/// What a run was and where it got to.
+fn summarise(problem: &Problem, run: &Run, finished: &Finished) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -172,11 +197,24 @@ fn summarise(
         "max |ψ − ψ_ref| within segments: {:.2e} ({:.2} ulp of the size of ψ's terms)",
         finished.worst.0, finished.worst.1
     )?;
-    let Some(statistics) = statistics else {
-        return Ok(());
-    };
+    Ok(())
+}
+
+/// About how long the run that is timed takes.
+const TIMED: Duration = Duration::from_millis(50);
+/// A shorter run is repeated: what is new to the processor is slow.
+const LEAST_TIMED: Duration = Duration::from_millis(20);
+
+/// Times the same run, or its beginning, without an observer.
+fn time(
+    problem: &Problem,
+    run: &Run,
+    statistics: &Statistics,
+    observed: Duration,
+) -> Result<(), Failure> {
+    let share = TIMED.as_secs_f64() / observed.as_secs_f64();
     let timed = Run {
-        t_end: run.t_end.min(LARGEST_TIMED * run.step_size),
+        t_end: run.t_end * share.min(1.0),
         ..run.clone()
     };
     let start = Instant::now();
@@ -187,7 +225,7 @@ fn summarise(
     let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / steps as f64;
     let per_step = statistics.newton_iterations as f64 / statistics.steps.max(1) as f64;
     writeln!(
-        out,
+        std::io::stdout(),
         "{} steps, {nanoseconds:.1} ns a step, {per_step:.2} Newton iterations a step",
         statistics.steps
     )?;

@@ -10,14 +10,31 @@ use crate::output;
 /// A scheme, with its step size or tolerance.
 #[derive(clap::Args)]
 pub(crate) struct SchemeOptions {
-    /// The scheme [default: symmetric; best for a system that a file declares].
+    /// The scheme [default: best].
     #[arg(long, value_parser = names())]
     scheme: Option<String>,
-    /// Step size; of a scheme that takes a tolerance, the distance of output points [default:
-    /// the problem's, or 1e-3 where all are compared].
+    #[command(flatten)]
+    control: ControlOptions,
+}
+
+/// The same of an ensemble.
+#[derive(clap::Args)]
+pub(crate) struct EnsembleSchemeOptions {
+    /// The scheme [default: best].
+    #[arg(long, value_parser = ensemble_names())]
+    scheme: Option<String>,
+    #[command(flatten)]
+    control: ControlOptions,
+}
+
+/// What decides the steps of a scheme.
+#[derive(clap::Args)]
+struct ControlOptions {
+    /// Step size; of a scheme that chooses its steps (best, taylor, or with `--tolerance`), the
+    /// distance of output points [default: the problem's, or 1e-3 where all are compared].
     #[arg(long, allow_negative_numbers = true)]
     step: Option<f64>,
-    /// Tolerance of a scheme that chooses its steps [default: 1e-12].
+    /// Tolerance, for steps of the scheme's own choice [default of best and taylor: 1e-12].
     #[arg(long, allow_negative_numbers = true)]
     tolerance: Option<f64>,
 }
@@ -43,10 +60,28 @@ fn parser(methods: impl Iterator<Item = MethodName>) -> PossibleValuesParser {
     PossibleValuesParser::new(values)
 }
 
+/// The names of the schemes that ensembles are integrated by.
+fn ensemble_names() -> PossibleValuesParser {
+    parser(MethodName::OF_ENSEMBLES.iter().copied())
+}
+
 impl SchemeOptions {
-    /// The scheme, or `usual`.
-    fn method(&self, usual: MethodName) -> Result<MethodName, Failure> {
-        let name = self.scheme.as_deref().unwrap_or(usual.name());
+    /// The run with these options instead of its own.
+    pub(crate) fn applied(&self, run: Run) -> Result<Run, Failure> {
+        self.control.applied(self.scheme.as_deref(), run)
+    }
+}
+
+impl EnsembleSchemeOptions {
+    /// The run with these options instead of its own.
+    pub(crate) fn applied(&self, run: Run) -> Result<Run, Failure> {
+        self.control.applied(self.scheme.as_deref(), run)
+    }
+}
+
+impl ControlOptions {
+    /// The scheme of that name.
+    fn method(&self, name: &str) -> Result<MethodName, Failure> {
         let method = named(name, self.tolerance.is_some())?;
         match (method.control(), self.tolerance) {
             (Control::StepSize { .. }, Some(_)) => Err(Failure::Request(format!(
@@ -56,9 +91,8 @@ impl SchemeOptions {
         }
     }
 
-    /// The run with these options instead of its own.
-    pub(crate) fn applied(&self, run: Run) -> Result<Run, Failure> {
-        let method = self.method(run.method)?;
+    fn applied(&self, scheme: Option<&str>, run: Run) -> Result<Run, Failure> {
+        let method = self.method(scheme.unwrap_or(run.method.name()))?;
         let step_size = self.step.unwrap_or(run.step_size);
         Ok(Run {
             method,

@@ -10,7 +10,7 @@ use dmm_problems::problem::Problem;
 use proc_macro2::TokenStream;
 
 use crate::failure::Failure;
-use crate::file;
+use crate::file::Source;
 use crate::input;
 use crate::invariants;
 use crate::output;
@@ -47,8 +47,9 @@ pub(crate) fn show(arguments: &Arguments) -> Result<(), Failure> {
 fn find_invariants(arguments: &Arguments, degree: u32) -> Result<(), Failure> {
     match input::own_file(&arguments.problem) {
         Some(path) => {
-            let declarations = file::declarations(path)?;
-            invariants::print(declarations, degree, |wrong| file::report(path, wrong))
+            let source = Source::read(path)?;
+            let declarations = source.declarations()?;
+            invariants::print(declarations, degree, |wrong| source.report(wrong))
         }
         None => {
             let problem = input::problem(&arguments.problem, &[])?;
@@ -64,18 +65,19 @@ fn find_invariants(arguments: &Arguments, degree: u32) -> Result<(), Failure> {
 fn show_file(path: &Path, arguments: &Arguments) -> Result<(), Failure> {
     let mut schemes = Vec::new();
     let mut wrong = Vec::new();
-    for declaration in file::declarations(path)? {
+    let source = Source::read(path)?;
+    for declaration in source.declarations()? {
         let mut diagnostics = Diagnostics::new();
         match dmm_compiler::read_with(declaration, &mut diagnostics) {
             Some(scheme) => {
-                file::warn(path, &diagnostics);
+                source.warn(&diagnostics);
                 schemes.push(scheme);
             }
             None => wrong.push(diagnostics),
         }
     }
     if !wrong.is_empty() {
-        return Err(file::report(path, &wrong));
+        return Err(source.report(&wrong));
     }
     let texts: Vec<String> = schemes
         .iter()

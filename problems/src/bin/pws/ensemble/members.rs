@@ -1,6 +1,7 @@
 //! The members of an ensemble: every combination of ranges, or the rows of a file.
 
 use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use dmm_problems::problem::{Problem, Start};
@@ -158,6 +159,7 @@ fn assignment(text: &str) -> Result<(String, Range), Failure> {
 /// The rows of a CSV file whose columns are named after states and parameters; what has no
 /// column keeps the problem's value.
 pub(crate) fn of_file(problem: &Problem, path: &Path) -> Result<Members, Failure> {
+    let count = rows(path)?;
     let file = File::open(path).map_err(|error| Failure::read(path, error))?;
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
@@ -180,13 +182,29 @@ pub(crate) fn of_file(problem: &Problem, path: &Path) -> Result<Members, Failure
         columns.push((name.to_owned(), quantity));
     }
     let start = default_start(problem);
-    let rows = reader
+    let records = reader
         .into_records()
         .map(move |record| row(&start, &columns, record));
     Ok(Members {
-        rows: Box::new(rows),
-        count: None,
+        rows: Box::new(records),
+        count,
     })
+}
+
+/// About how many members a file has, by its lines; nothing of what can be read once only.
+fn rows(path: &Path) -> Result<Option<u64>, Failure> {
+    let failed = |error| Failure::read(path, error);
+    let file = File::open(path).map_err(failed)?;
+    if !file.metadata().map_err(failed)?.is_file() {
+        return Ok(None);
+    }
+    let mut count = 0;
+    for line in BufReader::new(file).split(b'\n') {
+        let line = line.map_err(failed)?;
+        let is_member = !line.starts_with(b"#") && !line.trim_ascii().is_empty();
+        count += u64::from(is_member);
+    }
+    Ok(Some(count.saturating_sub(1)))
 }
 
 /// A row of a file.

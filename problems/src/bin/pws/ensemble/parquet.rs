@@ -11,7 +11,7 @@ use parquet::errors::ParquetError;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
-use super::table::{Cell, Column, Kind};
+use super::cells::{Cell, Column, Kind};
 use crate::failure::Failure;
 
 /// Rows that are in memory before they are written.

@@ -3,16 +3,17 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use dmm_problems::problem::{Arrival, MemberOutcome, Problem, Run, Start};
-use indicatif::ProgressBar;
 
+use super::cells::{Cell, Column, Kind};
 use super::members::Row;
-use super::table::{Cell, Column, Kind, Table};
+use super::table::Table;
 use crate::failure::Failure;
 use crate::output;
-use crate::progress;
+use crate::progress::Progress;
 use crate::scheme;
 
 /// Rows that are read and not yet written; a bad one has its place among the others.
@@ -22,7 +23,9 @@ pub(crate) type Waiting = RefCell<VecDeque<Row>>;
 pub(crate) struct Results {
     table: Table,
     regions: Vec<&'static str>,
-    bar: ProgressBar,
+    progress: Progress,
+    /// How many members there will be, if that is known.
+    count: Option<u64>,
     members: u64,
     failures: u64,
     steps: u64,
@@ -52,7 +55,8 @@ impl Results {
         Ok(Self {
             table: Table::create(path, &columns)?,
             regions: problem.regions(),
-            bar: progress::counter(count),
+            progress: Progress::new(problem.description().name),
+            count,
             members: 0,
             failures: 0,
             steps: 0,
@@ -61,7 +65,7 @@ impl Results {
         })
     }
 
-    /// Writes the next member with its outcome and the bad rows before it; without a outcome those that
+    /// Writes the next member with its outcome and the bad rows before it; without an outcome those that
     /// are left.
     pub(crate) fn take(
         &mut self,
@@ -122,13 +126,30 @@ impl Results {
         self.members += 1;
         self.failures += u64::from(failure.is_some());
         cells.push(failure.map_or(Cell::Missing, Cell::Text));
-        self.bar.inc(1);
         self.table.row(cells)
     }
 
-    /// Closes the table and sums up.
-    pub(crate) fn finish(self, problem: &Problem, run: &Run, seconds: f64) -> Result<(), Failure> {
-        self.bar.finish_and_clear();
+    /// How many members there were so far.
+    pub(crate) fn members(&self) -> u64 {
+        self.members
+    }
+
+    /// Tells how far it is; whether to go on.
+    pub(crate) fn goes_on(&self) -> ControlFlow<()> {
+        match self.count {
+            Some(count) => self.progress.at(self.members as f64 / count as f64),
+            None => self.progress.count(self.members, "trajectories"),
+        }
+    }
+
+    /// Closes the table and sums up: the file, and whether all went well.
+    pub(crate) fn finish(
+        self,
+        problem: &Problem,
+        run: &Run,
+        seconds: f64,
+    ) -> Result<(PathBuf, Result<(), Failure>), Failure> {
+        self.progress.finish();
         let path = self.table.finish()?;
         let mut out = std::io::stdout().lock();
         writeln!(
@@ -147,13 +168,12 @@ impl Results {
             self.transitions
         )?;
         writeln!(out, "{:.3e} trajectories/s", members as f64 / seconds)?;
-        drop(out);
-        output::announce(&[path])?;
-        match self.failures {
+        let outcome = match self.failures {
             0 => Ok(()),
             failures => Err(Failure::Stopped(format!(
                 "{failures} of {members} trajectories failed: see the column `failure`"
             ))),
-        }
+        };
+        Ok((path, outcome))
     }
 }

@@ -3,42 +3,11 @@
 
 use std::path::PathBuf;
 
-use crate::failure::Failure;
-use crate::output::Csv;
-
+use super::cells::{Cell, Column};
 #[cfg(feature = "parquet")]
 use super::parquet::Parquet;
-
-/// What a column holds.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Kind {
-    Count,
-    Number,
-    Text,
-}
-
-/// What stands in a row; nothing where there is nothing to say.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Cell {
-    Missing,
-    Count(u64),
-    Number(f64),
-    Text(String),
-}
-
-impl Cell {
-    fn written(&self) -> String {
-        match self {
-            Self::Missing => String::new(),
-            Self::Count(count) => count.to_string(),
-            Self::Number(value) => value.to_string(),
-            Self::Text(text) => text.clone(),
-        }
-    }
-}
-
-/// A column: its name and what it holds.
-pub(crate) type Column = (String, Kind);
+use crate::failure::Failure;
+use crate::output::Csv;
 
 /// A table being written, in constant memory.
 pub(crate) enum Table {
@@ -50,7 +19,7 @@ pub(crate) enum Table {
 impl Table {
     /// A new file with these columns.
     pub(crate) fn create(path: PathBuf, columns: &[Column]) -> Result<Self, Failure> {
-        if path.extension().is_some_and(|one| one == "parquet") {
+        if path.extension().is_some_and(|ending| ending == "parquet") {
             return Self::parquet(path, columns);
         }
         Csv::create(path, columns.iter().map(|(name, _)| name))

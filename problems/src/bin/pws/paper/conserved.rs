@@ -8,11 +8,11 @@ use dmm_problems::picture::Picture;
 use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 use dmm_problems::reference::Reference;
 
-use super::Report;
+use super::report::Report;
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{self, Csv};
-use crate::portrait::{self, Thinned};
+use crate::output;
+use crate::series::{self, Thinned};
 
 /// As in the paper.
 const STEP_SIZE: f64 = 1e-3;
@@ -28,10 +28,8 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
     let problem = input::problem(name, &[])?;
     let (exact, t_end) = exact(&problem)?;
     let file = format!("fig{number}_{name}_conserved");
-    let mut csv = Csv::create(
-        report.out.join(format!("{file}.csv")),
-        ["scheme", "t", "error"],
-    )?;
+    let header = ["scheme", "t", "error"];
+    let mut csv = report.out.csv(&format!("{file}.csv"), header)?;
     let mut panels = Vec::new();
     let schemes = [
         ("DMM", "discrete multiplier method", MethodName::Symmetric),
@@ -57,7 +55,7 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
         };
         problem.integrate(&run, &mut errors)?;
         for (t, error) in &errors.rows {
-            csv.row([short.to_owned(), t.to_string(), error.to_string()])?;
+            csv.row([short.to_owned(), output::number(*t), output::number(*error)])?;
         }
         let paper = match (name, short) {
             (_, "DMM") => "close to machine precision",
@@ -76,22 +74,16 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
             ),
         );
         let series = [(String::new(), errors.thinned.points().to_vec())];
-        panels.push(portrait::errors(&series, "ψ − exact level", long));
+        panels.push(series::errors(&series, "ψ − exact level", long));
     }
-    report.files.push(csv.finish()?);
+    report.out.add(csv.finish()?);
     let title = format!("Fig. {number}: error of the conserved quantity, τ = 0.001, {name}");
     let picture = Picture {
         columns: 1,
         panel_size: (760.0, 300.0),
         ..Picture::row(title, panels)
     };
-    report.files.push(output::picture(
-        &report.out,
-        &file,
-        &picture,
-        report.format,
-    )?);
-    Ok(())
+    report.out.picture(&file, &picture, report.format)
 }
 
 /// The exact level of each region, and a time in the middle of the last segment.

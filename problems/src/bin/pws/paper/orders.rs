@@ -3,14 +3,14 @@
 use dmm_problems::convergence::{self, Plan, Study};
 use dmm_problems::method::MethodName;
 use dmm_problems::perturbed::Perturbed;
-use dmm_problems::picture::{COLOURS, Panel, Picture, Stroke};
+use dmm_problems::picture::{Look, Panel, Picture, Stroke};
 use dmm_problems::problem::Problem;
 
-use super::Report;
+use super::report::Report;
 use crate::converge::{self, axes, curve, halved, quantities};
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{self, Csv};
+use crate::output;
 
 /// Transitions after which errors are measured, as in the paper.
 const AFTER: [usize; 4] = [0, 10, 20, 30];
@@ -45,11 +45,11 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
     let study = convergence::study(
         &problem,
         &plan(&problem, MethodName::Symmetric, 1.0 / 64.0),
-        || (),
+        &mut |share| report.at(share),
     )?;
     let file = format!("fig{number}_{name}_crossing_time");
-    let path = report.out.join(format!("{file}.csv"));
-    let mut csv = Csv::create(path, ["crossing", "exact_time", "step_size", "error"])?;
+    let header = ["crossing", "exact_time", "step_size", "error"];
+    let mut csv = report.out.csv(&format!("{file}.csv"), header)?;
     let (x, y) = axes("|crossing time − exact|");
     let mut panel = Panel::new(problem.description().title, x, y);
     for (k, row) in study.rows.iter().enumerate() {
@@ -59,9 +59,9 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
         for (tau, error) in study.step_sizes.iter().zip(&crossing.errors) {
             csv.row([
                 crossing.number.to_string(),
-                crossing.t.to_string(),
-                tau.to_string(),
-                error.to_string(),
+                output::number(crossing.t),
+                output::number(*tau),
+                output::number(*error),
             ])?;
         }
         let label = Some(format!("crossing {}", crossing.number));
@@ -69,13 +69,13 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
             label,
             curve(&study, &crossing.errors),
             Stroke::Marked,
-            COLOURS[k],
+            Look::nth(k),
         );
         let what = format!("{name}: time of crossing {}", crossing.number);
         report.row(number, what, "order 2", order(&study, &crossing.errors));
     }
     panel.slope(2, 0);
-    report.files.push(csv.finish()?);
+    report.out.add(csv.finish()?);
     for (transitions, quantity, errors) in quantities(&problem, &study) {
         if !quantity.starts_with("time") {
             let what = format!("{name}: {quantity}, after {transitions}");
@@ -86,31 +86,33 @@ pub(super) fn crossing_times(report: &mut Report, name: &str, number: u32) -> Re
         format!("Fig. {number}: error of the crossing time"),
         vec![panel],
     );
-    let path = output::picture(&report.out, &file, &picture, report.format)?;
-    report.files.push(path);
-    Ok(())
+    report.out.picture(&file, &picture, report.format)
 }
 
 /// Figs 4 and 7: the error of the state with crossings located too late by c·τᵖ.
 pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(), Failure> {
     let problem = input::problem(name, &[])?;
     let file = format!("fig{number}_{name}_perturbed");
-    let path = report.out.join(format!("{file}.csv"));
-    let mut csv = Csv::create(
-        path,
-        [
-            "p",
-            "amplitude",
-            "transitions",
-            "t",
-            "step_size",
-            "error_norm",
-        ],
-    )?;
+    let header = [
+        "p",
+        "amplitude",
+        "transitions",
+        "t",
+        "step_size",
+        "error_norm",
+    ];
+    let mut csv = report.out.csv(&format!("{file}.csv"), header)?;
     let mut panels = Vec::new();
+    let steps = |step: f64| 1.0 / step;
+    let all: f64 = PERTURBATIONS.iter().map(|(.., step, _)| steps(*step)).sum();
+    let weight = |step: f64| steps(step) / all;
+    let mut done = 0.0;
     for (power, amplitude, step, title) in PERTURBATIONS {
         let method = MethodName::Perturbed(Perturbed { amplitude, power });
-        let study = convergence::study(&problem, &plan(&problem, method, step), || ())?;
+        let study = convergence::study(&problem, &plan(&problem, method, step), &mut |share| {
+            report.at(done + share * weight(step))
+        })?;
+        done += weight(step);
         let (x, y) = axes("‖x̂ − x‖");
         let mut panel = Panel::new(title, x, y);
         for (k, row) in study.rows.iter().enumerate() {
@@ -118,11 +120,11 @@ pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(),
             for (tau, error) in study.step_sizes.iter().zip(&norms) {
                 csv.row([
                     power.to_string(),
-                    amplitude.to_string(),
+                    output::number(amplitude),
                     row.transitions.to_string(),
-                    row.t.to_string(),
-                    tau.to_string(),
-                    error.to_string(),
+                    output::number(row.t),
+                    output::number(*tau),
+                    output::number(*error),
                 ])?;
             }
             let (when, paper) = match row.transitions {
@@ -136,21 +138,16 @@ pub(super) fn states(report: &mut Report, name: &str, number: u32) -> Result<(),
                 Some(when),
                 curve(&study, &norms),
                 Stroke::Marked,
-                COLOURS[k],
+                Look::nth(k),
             );
         }
         // with p = 1 the error before the first transition is of another order
         panel.slope(power.min(2), usize::from(power == 1));
         panels.push(panel);
     }
-    report.files.push(csv.finish()?);
+    report.out.add(csv.finish()?);
     let title = format!("Fig. {number}: error before and after 10, 20, 30 transitions, {name}");
-    let path = output::picture(
-        &report.out,
-        &file,
-        &Picture::row(title, panels),
-        report.format,
-    )?;
-    report.files.push(path);
-    Ok(())
+    report
+        .out
+        .picture(&file, &Picture::row(title, panels), report.format)
 }

@@ -2,13 +2,14 @@
 
 use std::ops::ControlFlow;
 
+use dmm_problems::method::MethodName;
 use dmm_problems::picture::Picture;
 use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 
-use super::{Report, SYSTEMS};
+use super::report::{Report, SYSTEMS};
 use crate::failure::Failure;
 use crate::input;
-use crate::output::{self, Csv};
+use crate::output;
 use crate::portrait::{self, Kept};
 
 /// Starting points, all on closed orbits except the last elliptic one, which comes from
@@ -26,8 +27,8 @@ const NEAR: f64 = 4.0;
 
 /// Draws both systems.
 pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
-    let path = report.out.join("fig2_trajectories.csv");
-    let mut csv = Csv::create(path, ["system", "trajectory", "t", "x", "y", "region"])?;
+    let header = ["system", "trajectory", "t", "x", "y", "region"];
+    let mut csv = report.out.csv("fig2_trajectories.csv", header)?;
     let mut panels = Vec::new();
     for (system, (name, _)) in SYSTEMS.iter().enumerate() {
         let problem = input::problem(name, &[])?;
@@ -39,9 +40,9 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
                 csv.row([
                     (*name).to_owned(),
                     (number + 1).to_string(),
-                    point.t.to_string(),
-                    point.x[0].to_string(),
-                    point.x[1].to_string(),
+                    output::number(point.t),
+                    output::number(point.x[0]),
+                    output::number(point.x[1]),
                     regions[point.region].to_owned(),
                 ])?;
             }
@@ -51,15 +52,16 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
         panel.equal_aspect = true;
         panels.push(panel);
     }
-    report.files.push(csv.finish()?);
+    report.out.add(csv.finish()?);
     let picture = Picture::row("Fig. 2: trajectories", panels);
-    let path = output::picture(&report.out, "fig2_trajectories", &picture, report.format)?;
-    report.files.push(path);
-    Ok(())
+    report
+        .out
+        .picture("fig2_trajectories", &picture, report.format)
 }
 
 fn trajectory(problem: &Problem, start: &[f64; 2], t_end: f64) -> Result<Vec<Kept>, Failure> {
     let run = Run {
+        method: MethodName::Symmetric,
         step_size: STEP_SIZE,
         initial: start.to_vec(),
         t_end,

@@ -1,15 +1,16 @@
 //! Listening to a run: its files, and what its pictures and its summary need.
 
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use dmm_problems::problem::{AnyObserver, Crossed, OutputTimes, Problem, Record, Run};
-use indicatif::ProgressBar;
 
+use crate::directory::Directory;
 use crate::failure::Failure;
-use crate::output::Csv;
-use crate::portrait::{Kept, Thinned};
-use crate::progress;
+use crate::output::{self, Csv};
+use crate::portrait::Kept;
+use crate::progress::Progress;
+use crate::series::Thinned;
 
 /// The names of all conserved quantities of a problem: those of each region, once.
 fn conserved_names(problem: &Problem) -> Vec<&'static str> {
@@ -31,7 +32,8 @@ pub(super) struct Recorder<'a> {
     /// For each region the columns of its conserved quantities.
     columns: Vec<Vec<usize>>,
     points: Csv,
-    transitions: Csv,
+    /// Of a system with interfaces.
+    transitions: Option<Csv>,
     every: u64,
     /// Whether points of output are written, rather than the ends of steps.
     writes_outputs: bool,
@@ -47,9 +49,12 @@ pub(super) struct Recorder<'a> {
     keep_every: u64,
     errors: Vec<(String, Thinned)>,
     worst: (f64, f64),
+    crossings: Vec<Kept>,
     transition_count: u64,
     failure: Option<Failure>,
-    bar: ProgressBar,
+    is_interrupted: bool,
+    t_end: f64,
+    progress: Progress,
 }
 
 /// A record that outlives its run.
@@ -89,15 +94,26 @@ impl Snapshot {
     }
 }
 
+/// Records from one word of progress to the next.
+const TOLD: u64 = 16;
+
 /// Points kept for phase portrait and time series.
 const LARGEST_KEPT: usize = 20_000;
+/// Crossings kept for the phase portrait.
+const MOST_CROSSINGS: usize = 2_000;
 
 /// What is left of a recorder.
 pub(super) struct Finished {
+    /// A file that could not be written.
+    pub(super) failure: Option<Failure>,
+    /// Whether Ctrl-C ended the run.
+    pub(super) is_interrupted: bool,
     pub(super) files: Vec<PathBuf>,
     pub(super) kept: Vec<Kept>,
     pub(super) errors: Vec<(String, Vec<(f64, f64)>)>,
     pub(super) worst: (f64, f64),
+    /// The first crossings.
+    pub(super) crossings: Vec<Kept>,
     pub(super) transitions: u64,
     pub(super) t: f64,
 }
@@ -108,7 +124,7 @@ impl<'a> Recorder<'a> {
         problem: &'a Problem,
         run: &Run,
         every: u64,
-        out: &Path,
+        out: &Directory,
     ) -> Result<Self, Failure> {
         let names = conserved_names(problem);
         let states = problem.states();
@@ -116,11 +132,15 @@ impl<'a> Recorder<'a> {
         header.extend(states.iter().map(|state| (*state).to_owned()));
         header.extend(names.iter().map(|name| (*name).to_owned()));
         header.extend(names.iter().map(|name| format!("{name}_error")));
-        let points = Csv::create(out.join("points.csv"), &header)?;
+        let points = out.csv("points.csv", &header)?;
         let mut header: Vec<&str> = vec!["t", "interface", "from", "to"];
         header.extend(states);
         header.extend(["rate_from", "rate_to"]);
-        let transitions = Csv::create(out.join("transitions.csv"), &header)?;
+        let transitions = match problem.interfaces() {
+            // a smooth system has none: no file that says only that
+            [] => None,
+            _ => Some(out.csv("transitions.csv", &header)?),
+        };
         let column = |name: &&str| {
             names
                 .iter()
@@ -156,22 +176,28 @@ impl<'a> Recorder<'a> {
                 .map(|name| ((*name).to_owned(), Thinned::new()))
                 .collect(),
             worst: (0.0, 0.0),
+            crossings: Vec::new(),
             transition_count: 0,
             failure: None,
-            bar: progress::bar((run.t_end / run.step_size) as u64, steps),
+            is_interrupted: false,
+            t_end: run.t_end,
+            progress: Progress::new(problem.description().name),
         })
     }
 
     /// The fields of a row of points.
     fn fields(&self, record: &Record<'_>) -> Vec<String> {
-        let mut fields = vec![record.t.to_string(), self.regions[record.region].to_owned()];
-        fields.extend(record.x.iter().map(f64::to_string));
+        let mut fields = vec![
+            output::number(record.t),
+            self.regions[record.region].to_owned(),
+        ];
+        fields.extend(record.x.iter().map(|&value| output::number(value)));
         let first = fields.len();
         let count = self.errors.len();
         fields.resize(first + 2 * count, String::new());
         for (k, &column) in self.columns[record.region].iter().enumerate() {
-            fields[first + column] = record.psi[k].to_string();
-            fields[first + count + column] = (record.psi[k] - record.level[k]).to_string();
+            fields[first + column] = output::number(record.psi[k]);
+            fields[first + count + column] = output::number(record.psi[k] - record.level[k]);
         }
         fields
     }
@@ -216,35 +242,35 @@ impl<'a> Recorder<'a> {
         self.worst.1 = self.worst.1.max(record.error_ulps());
     }
 
-    /// Writes what is left.
-    pub(super) fn finish(mut self) -> Result<Finished, Failure> {
-        self.bar.finish_and_clear();
-        if let Some(failure) = self.failure {
-            return Err(failure);
+    /// Writes what is left; a file that cannot be written leaves the rest as it is.
+    pub(super) fn finish(mut self) -> Finished {
+        self.progress.finish();
+        let mut failure = self.failure.take();
+        if !self.written && failure.is_none() {
+            failure = self.points.row(self.fields(&self.last.record())).err();
         }
-        if !self.written {
-            self.points.row(self.fields(&self.last.record()))?;
-        }
-        let t = self.last.t;
-        let mut files = vec![self.points.finish()?];
-        let transitions = self.transitions.finish()?;
-        if !self.problem.interfaces().is_empty() {
-            files.push(transitions);
-        } else {
-            // a smooth system has none: no file that says only that
-            let _ = std::fs::remove_file(transitions);
+        let mut files = Vec::new();
+        let tables = [Some(self.points), self.transitions];
+        for table in tables.into_iter().flatten() {
+            match table.finish() {
+                Ok(file) => files.push(file),
+                Err(error) => failure = failure.or(Some(error)),
+            }
         }
         let errors = self.errors.into_iter();
-        Ok(Finished {
+        Finished {
+            failure,
+            is_interrupted: self.is_interrupted,
             files,
             kept: self.kept,
             errors: errors
                 .map(|(name, thinned)| (name, thinned.points().to_vec()))
                 .collect(),
             worst: self.worst,
+            crossings: self.crossings,
             transitions: self.transition_count,
-            t,
-        })
+            t: self.last.t,
+        }
     }
 
     /// Ends the run if a file cannot be written.
@@ -265,8 +291,9 @@ impl AnyObserver for Recorder<'_> {
         self.keep(record);
         self.region = Some(record.region);
         self.records += 1;
-        if self.records.is_multiple_of(1 << 14) {
-            self.bar.set_position(self.records);
+        if self.records.is_multiple_of(TOLD) && self.progress.at(record.t / self.t_end).is_break() {
+            self.is_interrupted = true;
+            return ControlFlow::Break(());
         }
         self.go_on(result)
     }
@@ -279,14 +306,21 @@ impl AnyObserver for Recorder<'_> {
             .get(crossed.interface)
             .unwrap_or(&"");
         let mut fields = vec![
-            crossed.t.to_string(),
+            output::number(crossed.t),
             (*interface).to_owned(),
             self.regions[crossed.from].to_owned(),
             self.regions[crossed.to].to_owned(),
         ];
-        fields.extend(crossed.x.iter().map(f64::to_string));
-        fields.extend([crossed.rate_from.to_string(), crossed.rate_to.to_string()]);
-        let result = self.transitions.row(&fields);
+        fields.extend(crossed.x.iter().map(|&value| output::number(value)));
+        fields.extend([crossed.rate_from, crossed.rate_to].map(output::number));
+        let result = match &mut self.transitions {
+            Some(transitions) => transitions.row(&fields),
+            None => Ok(()),
+        };
+        if self.crossings.len() < MOST_CROSSINGS {
+            let (t, x, region) = (crossed.t, crossed.x.clone(), crossed.to);
+            self.crossings.push(Kept { t, x, region });
+        }
         self.go_on(result)
     }
 }

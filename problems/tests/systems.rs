@@ -3,11 +3,11 @@
 
 use std::ops::ControlFlow;
 
-use crate::accurate;
-use crate::method::MethodName;
-use crate::problem::{AnyObserver, Crossed, OutputTimes, Problem, Run};
-use crate::reference::Reference;
-use crate::registry;
+use dmm_problems::accurate;
+use dmm_problems::method::MethodName;
+use dmm_problems::problem::{AnyObserver, Crossed, OutputTimes, Problem, Run};
+use dmm_problems::reference::Reference;
+use dmm_problems::registry;
 
 /// Up to this time the errors at the step sizes used are in their asymptotic regime.
 const T_END: f64 = 100.0;
