@@ -141,12 +141,12 @@ pub struct Memory<T, const N: usize> {
 impl<Map: OneStep, Loc: Locator> Adaptive<Map, Loc> {
     /// What the tolerance asks for.
     fn control<const N: usize>(&self, memory: &Memory<Map::Memory<N>, N>) -> StepSizeControl<N> {
-        StepSizeControl::new(Map::ORDER, self.tolerance, memory.sizes.as_slice())
+        StepSizeControl::new(self.map.order(), self.tolerance, memory.sizes.as_slice())
     }
 
     /// The part of the radius of convergence that a step takes.
     fn fraction(&self) -> f64 {
-        self.tolerance.powf(1.0 / (Map::ORDER + 1) as f64)
+        self.tolerance.powf(1.0 / (self.map.order() + 1) as f64)
     }
 }
 
@@ -209,7 +209,7 @@ impl<Map: OneStep, Loc: Locator> Method for Adaptive<Map, Loc> {
             memory.step = tau;
             memory.sizes.copy_from_slice(run.control.sizes());
             if !watches.as_ref().is_empty() {
-                let coefficients = dense(&run.expansion, Map::ORDER, &increment, tau);
+                let coefficients = dense(&run.expansion, self.map.order(), &increment, tau);
                 let dense = Dense {
                     path: Path {
                         t0: segment.cursor.time.value,

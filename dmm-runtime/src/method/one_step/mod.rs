@@ -25,7 +25,7 @@ mod uniform;
 mod watch;
 
 pub use adaptive::Adaptive;
-pub use composed::Composed;
+pub use composed::{Composed, SubSteps};
 pub use compositions::Composition;
 pub use crossing::{Crossing, Located, Locator, NewtonLocator};
 pub use map::{Correction, OneStep, Step};

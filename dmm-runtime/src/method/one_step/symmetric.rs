@@ -194,7 +194,9 @@ fn newton_and_look<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
 impl OneStep for Symmetric {
     type Memory<const N: usize> = Memory<N>;
 
-    const ORDER: usize = 2;
+    fn order(&self) -> usize {
+        2
+    }
 
     fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
