@@ -2,7 +2,7 @@
 
 use super::crossing::{Locator, NewtonLocator};
 use super::map::{OneStep, Step};
-use super::search::{Dense, active, advance, readings, watches};
+use super::search::{Dense, watches};
 use super::segment::Segment;
 use super::step_size::{COEFFICIENTS, Expansion, StepSizeControl};
 use crate::arithmetic::linear::is_finite;
@@ -223,20 +223,15 @@ impl<Map: OneStep, Loc: Locator> Method for Adaptive<Map, Loc> {
                     return Ok(end);
                 }
             }
-            segment.outputs(dynamics, tau, time)?;
             level.rescale(dynamics, time.value, &segment.cursor.state);
-            segment.accept(dynamics, &level, &increment, tau, time)?;
-            let cursor = &mut *segment.cursor;
-            let values = readings::<N, M, D>(dynamics, time.value, &cursor.state.x);
-            advance(&mut watches, &values, true);
-            if segment.sink.point(time, &cursor.state).is_break() {
-                cursor.active = active(dynamics, &watches);
-                cursor.level = Some(level.kept());
-                run.expansion = expansion;
+            let end = (tau, time);
+            let stops = segment.conclude(dynamics, &level, &mut watches, &increment, end)?;
+            run.expansion = expansion;
+            if stops {
+                segment.keep(dynamics, &level, &watches);
                 memory.stopped = Some(run);
                 return Ok(Ended::Stopped);
             }
-            run.expansion = expansion;
         }
         Ok(Ended::Finished)
     }

@@ -8,6 +8,7 @@
 mod adaptive;
 mod composed;
 mod compositions;
+mod conclusion;
 mod crossing;
 mod dip;
 mod grid;

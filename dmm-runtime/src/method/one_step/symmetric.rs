@@ -118,18 +118,16 @@ impl<const N: usize> Memory<N> {
         } = *step;
         let start = (t0, *x0, tau);
         let mut solved = increment;
-        let failure = match looks {
-            false => newton(dynamics, start, &mut solved, statistics),
-            true => {
-                let mut sweeps = Sweeps::new();
-                let failure =
-                    newton_and_look(dynamics, start, &mut solved, &mut sweeps, statistics);
-                // until predictions are as good as they become, the next step looks again
-                if self.increments.is_full() {
-                    self.sweeps = sweeps;
-                }
-                failure
+        let failure = if looks {
+            let mut sweeps = Sweeps::new();
+            let failure = newton_and_look(dynamics, start, &mut solved, &mut sweeps, statistics);
+            // until predictions are as good as they become, the next step looks again
+            if self.increments.is_full() {
+                self.sweeps = sweeps;
             }
+            failure
+        } else {
+            newton(dynamics, start, &mut solved, statistics)
         };
         match failure {
             None => Ok(solved),
@@ -217,9 +215,10 @@ impl OneStep for Symmetric {
 
     #[inline(always)]
     fn correction_interval<const N: usize>(memory: &Memory<N>) -> u64 {
-        match memory.long && !memory.sweeps.enough {
-            true => 8,
-            false => 32,
+        if memory.long && !memory.sweeps.enough {
+            8
+        } else {
+            32
         }
     }
 
