@@ -2,7 +2,7 @@
 //! program, its studies and its measurements.
 
 use dmm_runtime::dynamic::{InitialValue, MethodChoice, MethodVisitor, OutputTimes};
-use dmm_runtime::{Best, Composed, Symmetric, Taylor, Uniform};
+use dmm_runtime::{Best, Composed, Locator, NewtonLocator, Symmetric, Taylor, Uniform};
 
 use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
@@ -116,7 +116,7 @@ macro_rules! methods {
                 match self.method {
                     $(MethodName::$variant => visitor.visit(apply(self, $scheme)),)+
                     $(MethodName::$other => visitor.visit(apply(self, $other_scheme)),)+
-                    MethodName::Perturbed(late) => visitor.visit(symmetric(self).locator(late)),
+                    MethodName::Perturbed(late) => visitor.visit(symmetric(self, late)),
                 }
             }
 
@@ -128,7 +128,7 @@ macro_rules! methods {
                     ..
                 } = *self;
                 Some(match self.method {
-                    MethodName::Symmetric => visitor.visit(symmetric(self)),
+                    MethodName::Symmetric => visitor.visit(symmetric(self, NewtonLocator)),
                     MethodName::Taylor => visitor
                         .visit(Taylor::tolerance(tolerance).level_correction(level_correction)),
                     MethodName::Best => visitor
@@ -143,7 +143,7 @@ macro_rules! methods {
 methods! {
     conserving {
         /// order 2, uniform steps
-        Symmetric, "symmetric", order(2), symmetric;
+        Symmetric, "symmetric", order(2), |run| symmetric(run, Perturbed::NOT);
         /// its composition of order 4, uniform steps
         Composed4, "composed-4", order(4), |run| Composed::<4>::step_size(run.step_size).level_correction(run.level_correction);
         /// its composition of order 6, uniform steps
@@ -170,9 +170,11 @@ fn apply<Sch>(run: &Run, scheme: impl Fn(&Run) -> Sch) -> Sch {
     scheme(run)
 }
 
-/// The conservative scheme of order 2 of a run.
-pub(crate) fn symmetric(run: &Run) -> Uniform<Symmetric> {
-    Symmetric::step_size(run.step_size).level_correction(run.level_correction)
+/// The conservative scheme of order 2 of a run. Schemes with a locator of one type are compiled once.
+fn symmetric<Loc: Locator>(run: &Run, locator: Loc) -> Uniform<Symmetric, Loc> {
+    Symmetric::step_size(run.step_size)
+        .level_correction(run.level_correction)
+        .locator(locator)
 }
 
 impl MethodName {

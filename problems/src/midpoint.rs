@@ -31,7 +31,9 @@ fn increment<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
 impl OneStep for ExplicitMidpoint {
     type Memory<const N: usize> = ();
 
-    const ORDER: usize = 2;
+    fn order(&self) -> usize {
+        2
+    }
 
     fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,

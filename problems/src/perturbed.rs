@@ -14,6 +14,14 @@ pub struct Perturbed {
     pub power: i32,
 }
 
+impl Perturbed {
+    /// [`NewtonLocator`] itself.
+    pub(crate) const NOT: Self = Self {
+        amplitude: 0.0,
+        power: 1,
+    };
+}
+
 impl Locator for Perturbed {
     fn locate<Map: OneStep, const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,

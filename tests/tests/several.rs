@@ -162,11 +162,10 @@ pws! {
     }
 }
 
+type Way = (Vec<(f64, &'static str)>, [f64; 3]);
+
 /// The way that a system takes: times, names of regions and the end.
-fn way<Sys: System<3>>(
-    system: &Sys,
-    x0: [f64; 3],
-) -> Result<(Vec<(f64, &'static str)>, [f64; 3]), Error> {
+fn way<Sys: System<3>>(system: &Sys, x0: [f64; 3]) -> Result<Way, Error> {
     let solution = Integrator::new(system, Taylor::tolerance(1e-14))
         .initial(0.0, x0)
         .run_until(2.0)

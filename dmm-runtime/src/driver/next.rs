@@ -74,6 +74,9 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     })
 }
 
+/// A mode, the interfaces that bound it at a point, and what has happened there.
+type Behind<R, const N: usize> = (R, Active, Option<Happened<R, N>>);
+
 /// The mode that the solution goes on in where several interfaces may be met or events happen, and
 /// the interfaces that bound it.
 #[inline(never)]
@@ -83,7 +86,7 @@ fn around<Sys: System<N>, const N: usize>(
     interface: usize,
     t: f64,
     state: &State<N>,
-) -> Result<(Sys::Region, Active, Option<Happened<Sys::Region, N>>), Error> {
+) -> Result<Behind<Sys::Region, N>, Error> {
     let x = &state.x;
     let in_region = |error: Error| error.in_region(system.of_region(from).name);
     // what is on the wrong side of an interface by rounding is on it

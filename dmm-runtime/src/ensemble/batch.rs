@@ -212,9 +212,10 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                 let leave = self.register.leave(lane);
                 if leave != Leave::Not {
                     self.release(lane, region, leave);
-                    let next = match refills {
-                        true => self.queues.of(region, Job::Step).pop(),
-                        false => None,
+                    let next = if refills {
+                        self.queues.of(region, Job::Step).pop()
+                    } else {
+                        None
                     };
                     self.load(lane, next);
                 }

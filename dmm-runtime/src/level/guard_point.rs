@@ -8,7 +8,8 @@
 //! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
 //! hold to some thirty digits, and transitions add nothing to the level.
 
-use super::{Level, Weights, select, switching_in_pairs};
+use super::reached::select;
+use super::{Level, Weights, switching_in_pairs};
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time};

@@ -99,9 +99,11 @@ struct Failing {
 }
 
 impl OneStep for Failing {
-    const ORDER: usize = 2;
-
     type Memory<const N: usize> = ();
+
+    fn order(&self) -> usize {
+        2
+    }
 
     fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,

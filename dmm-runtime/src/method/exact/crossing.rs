@@ -69,9 +69,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         /// Nodes to try: an estimate is mostly next to the right one.
         const MOST_NODES: u32 = 16;
         let (guard, _) = dynamics.sides()[found.side];
-        let mut elapsed = match found.precise {
-            true => found.elapsed,
-            false => sizes.expected(found.side, found.elapsed),
+        let mut elapsed = if found.precise {
+            found.elapsed
+        } else {
+            sizes.expected(found.side, found.elapsed)
         };
         for _ in 0..MOST_NODES {
             let (node, offset, first) = sizes.node(&self.cursor.state, elapsed);
@@ -81,9 +82,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let mut along = sizes.along(found.side, &short.field());
             along[0] += by_time;
             // at the start of the step there may be a root that does not count
-            let start = match found.precise || offset == 0.0 {
-                true => first,
-                false => -value * along[0] / (along[0] * along[0] - value * along[1]),
+            let start = if found.precise || offset == 0.0 {
+                first
+            } else {
+                -value * along[0] / (along[0] * along[0] - value * along[1])
             };
             let rest = fall(value, &along, start, tau)?;
             elapsed = offset + rest;

@@ -249,8 +249,5 @@ fn add(sum: &mut [Double], term: &[Double]) -> f64 {
 }
 
 fn relative(part: f64, whole: f64) -> f64 {
-    match part == 0.0 {
-        true => 0.0,
-        false => part / whole,
-    }
+    if part == 0.0 { 0.0 } else { part / whole }
 }

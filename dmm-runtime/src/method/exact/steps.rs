@@ -225,9 +225,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let exponent = trial.exponent.max(start.progress.exponent_before);
         let fourth_power = (tau * tau) * (tau * tau) * (1.0 / 24.0);
         for (i, &(guard, _)) in dynamics.sides().iter().enumerate() {
-            let fourth = match exponent > FIRST {
-                true => sizes.fourth_later(i, exponent, &start.progress.field_before),
-                false => sizes.fourth(i, &start.at.field),
+            let fourth = if exponent > FIRST {
+                sizes.fourth_later(i, exponent, &start.progress.field_before)
+            } else {
+                sizes.fourth(i, &start.at.field)
             };
             let size = dynamics
                 .guards()

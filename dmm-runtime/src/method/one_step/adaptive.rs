@@ -2,7 +2,7 @@
 
 use super::crossing::{Locator, NewtonLocator};
 use super::map::{OneStep, Step};
-use super::search::{Dense, active, advance, readings, watches};
+use super::search::{Dense, watches};
 use super::segment::Segment;
 use super::step_size::{COEFFICIENTS, Expansion, StepSizeControl};
 use crate::arithmetic::linear::is_finite;
@@ -141,12 +141,12 @@ pub struct Memory<T, const N: usize> {
 impl<Map: OneStep, Loc: Locator> Adaptive<Map, Loc> {
     /// What the tolerance asks for.
     fn control<const N: usize>(&self, memory: &Memory<Map::Memory<N>, N>) -> StepSizeControl<N> {
-        StepSizeControl::new(Map::ORDER, self.tolerance, memory.sizes.as_slice())
+        StepSizeControl::new(self.map.order(), self.tolerance, memory.sizes.as_slice())
     }
 
     /// The part of the radius of convergence that a step takes.
     fn fraction(&self) -> f64 {
-        self.tolerance.powf(1.0 / (Map::ORDER + 1) as f64)
+        self.tolerance.powf(1.0 / (self.map.order() + 1) as f64)
     }
 }
 
@@ -209,7 +209,7 @@ impl<Map: OneStep, Loc: Locator> Method for Adaptive<Map, Loc> {
             memory.step = tau;
             memory.sizes.copy_from_slice(run.control.sizes());
             if !watches.as_ref().is_empty() {
-                let coefficients = dense(&run.expansion, Map::ORDER, &increment, tau);
+                let coefficients = dense(&run.expansion, self.map.order(), &increment, tau);
                 let dense = Dense {
                     path: Path {
                         t0: segment.cursor.time.value,
@@ -223,20 +223,15 @@ impl<Map: OneStep, Loc: Locator> Method for Adaptive<Map, Loc> {
                     return Ok(end);
                 }
             }
-            segment.outputs(dynamics, tau, time)?;
             level.rescale(dynamics, time.value, &segment.cursor.state);
-            segment.accept(dynamics, &level, &increment, tau, time)?;
-            let cursor = &mut *segment.cursor;
-            let values = readings::<N, M, D>(dynamics, time.value, &cursor.state.x);
-            advance(&mut watches, &values, true);
-            if segment.sink.point(time, &cursor.state).is_break() {
-                cursor.active = active(dynamics, &watches);
-                cursor.level = Some(level.kept());
-                run.expansion = expansion;
+            let end = (tau, time);
+            let stops = segment.conclude(dynamics, &level, &mut watches, &increment, end)?;
+            run.expansion = expansion;
+            if stops {
+                segment.keep(dynamics, &level, &watches);
                 memory.stopped = Some(run);
                 return Ok(Ended::Stopped);
             }
-            run.expansion = expansion;
         }
         Ok(Ended::Finished)
     }

@@ -57,22 +57,36 @@ where
 {
     /// Uniform steps of `step_size` (in the unit of time), which must be positive and finite;
     /// the integrator refuses others.
-    pub fn step_size(step_size: f64) -> Uniform<Self> {
-        Uniform::new(Self, step_size)
+    pub fn step_size(step_size: f64) -> Uniform<SubSteps> {
+        Uniform::new(Self::SUB_STEPS, step_size)
     }
 
     /// Steps by a tolerance: each leaves an error of about `tolerance` relative to the size of
     /// the state. Between 2.2·10⁻¹⁶ and 0.1; the integrator refuses others.
-    pub fn tolerance(tolerance: f64) -> Adaptive<Self> {
-        Adaptive::new(Self, tolerance)
+    pub fn tolerance(tolerance: f64) -> Adaptive<SubSteps> {
+        Adaptive::new(Self::SUB_STEPS, tolerance)
     }
+
+    const SUB_STEPS: SubSteps = SubSteps {
+        order: ORDER,
+        weights: Self::WEIGHTS,
+    };
+}
+
+/// The one-step map of [`Composed`]. It is one type for every order, so that steps by it are
+/// compiled once for a system.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SubSteps {
+    order: usize,
+    /// γ₁ … γₛ
+    weights: &'static [f64],
 }
 
 /// What [`Composed`] remembers within a segment.
 #[derive(Clone, Debug)]
-pub struct Memory<E, const N: usize> {
+pub struct Memory<const N: usize> {
     /// Of each sub-step, d/τ.
-    velocities: E,
+    velocities: Vec<History<N>>,
     /// Of a linear field, all sub-steps in one.
     propagator: Option<Propagator<N>>,
 }
@@ -99,14 +113,13 @@ impl<F, const N: usize> Step<'_, F, N> {
         let mut increment = Vector::zeros();
         let (mut from, mut t0) = (0.0, self.t0);
         for (i, &weight) in weights.iter().enumerate() {
-            let to = match i + 1 == weights.len() {
-                true => 1.0,
-                false => from + weight,
-            };
-            let tau = match self.dynamics.is_autonomous() {
-                true => weight * self.tau,
+            let is_last = i + 1 == weights.len();
+            let to = if is_last { 1.0 } else { from + weight };
+            let tau = if self.dynamics.is_autonomous() {
+                weight * self.tau
+            } else {
                 // telescoping sums need the very times that ψ(t, x) is evaluated at
-                false => (self.t0 + to * self.tau) - t0,
+                (self.t0 + to * self.tau) - t0
             };
             let x0 = self.x0 + increment;
             let step = Step {
@@ -186,13 +199,12 @@ impl<F, const N: usize> Stage<'_, F, N> {
     }
 }
 
-impl<const ORDER: usize> OneStep for Composed<ORDER>
-where
-    Self: Composition,
-{
-    type Memory<const N: usize> = Memory<<Self as Composition>::Each<History<N>>, N>;
+impl OneStep for SubSteps {
+    type Memory<const N: usize> = Memory<N>;
 
-    const ORDER: usize = ORDER;
+    fn order(&self) -> usize {
+        self.order
+    }
 
     /// The rounding errors of all sub-steps of a few long steps are above that of evaluating ψ.
     #[inline(always)]
@@ -207,12 +219,12 @@ where
     ) -> Self::Memory<N> {
         let whole = |tau: f64| {
             let of = |&weight: &f64| Propagator::new(dynamics, weight * tau);
-            let mut each = Self::WEIGHTS.iter().map(of);
+            let mut each = self.weights.iter().map(of);
             let first = each.next()??;
             each.try_fold(first, |before, next| Some(before.then(&next?)))
         };
         Memory {
-            velocities: Self::each(History::new()),
+            velocities: vec![History::new(); self.weights.len()],
             propagator: match dynamics.solvability() {
                 Solvability::Linear => step_size.and_then(whole),
                 Solvability::Affine | Solvability::Nonlinear => None,
@@ -243,13 +255,13 @@ where
         if step.dynamics.solvability() != Solvability::Nonlinear {
             return self.step(step, statistics);
         }
-        let histories = memory.velocities.as_mut();
+        let histories = &mut memory.velocities;
         let mut guess = match histories.first().and_then(History::predict) {
             Some(_) => None,
             None => Some(Guess::new(step.dynamics.vector_field(step.t0, step.x0))),
         };
         let scale = 1.0 / step.tau;
-        step.compose(Self::WEIGHTS, |i, stage| {
+        step.compose(self.weights, |i, stage| {
             let increment = match (histories[i].predict(), &mut guess) {
                 (Some(velocity), _) => stage.step.increment(velocity * step.tau, statistics)?,
                 (None, Some(guess)) => stage.increment(guess, statistics)?,
@@ -266,7 +278,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
         let mut guess = Guess::new(step.dynamics.vector_field(step.t0, step.x0));
-        step.compose(Self::WEIGHTS, |_, stage| {
+        step.compose(self.weights, |_, stage| {
             stage.increment(&mut guess, statistics)
         })
     }
@@ -280,7 +292,7 @@ where
         let mut guess = Guess::new(step.dynamics.vector_field(step.t0, step.x0));
         // ∂xᵢ/∂τ, from sub-step to sub-step
         let mut velocity = Vector::zeros();
-        let solved = step.compose(Self::WEIGHTS, |_, stage| {
+        let solved = step.compose(self.weights, |_, stage| {
             let increment = stage.increment(&mut guess, &mut Statistics::default())?;
             let rates = (velocity, stage.from, stage.to);
             velocity = stage

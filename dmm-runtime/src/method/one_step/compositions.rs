@@ -6,8 +6,6 @@
 
 #![allow(clippy::excessive_precision, reason = "the digits of the sources")]
 
-use std::fmt::Debug;
-
 use super::Composed;
 
 /// An order for which there is a composition; implemented for 4, 6 and 8.
@@ -18,12 +16,6 @@ use super::Composed;
 pub trait Composition: sealed::Sealed {
     /// γ₁ … γₛ
     const WEIGHTS: &'static [f64];
-
-    /// One value for each sub-step: the array `[T; s]`.
-    type Each<T: Copy + Debug>: Clone + Debug + AsRef<[T]> + AsMut<[T]>;
-
-    /// The array of one value s times.
-    fn each<T: Copy + Debug>(value: T) -> Self::Each<T>;
 }
 
 mod sealed {
@@ -33,7 +25,7 @@ mod sealed {
 
 /// Implements [`Composition`] for an order with the first half of its weights and the middle.
 macro_rules! composition {
-    ($order:literal: $($weight:ident = $value:expr),+; $middle:ident = $centre:expr; $stages:literal: [$($all:ident)+]) => {
+    ($order:literal: $($weight:ident = $value:expr),+; $middle:ident = $centre:expr; [$($all:ident)+]) => {
         impl sealed::Sealed for Composed<$order> {}
 
         impl Composition for Composed<$order> {
@@ -42,12 +34,6 @@ macro_rules! composition {
                 const $middle: f64 = $centre;
                 &[$($all),+]
             };
-
-            type Each<T: Copy + Debug> = [T; $stages];
-
-            fn each<T: Copy + Debug>(value: T) -> [T; $stages] {
-                [value; $stages]
-            }
         }
     };
 }
@@ -57,7 +43,7 @@ composition! {
     4:
     G1 = 0.414_490_771_794_375_737_142_354_062_861;
     G3 = -0.657_963_087_177_502_948_569_416_251_443;
-    5: [G1 G1 G3 G1 G1]
+    [G1 G1 G3 G1 G1]
 }
 
 // Kahan & Li, Math. Comp. 66, 1997, as in Hairer, Lubich & Wanner, eq. V.3.11
@@ -68,7 +54,7 @@ composition! {
     G3 = -0.706_246_172_557_639_359_809_964_82,
     G4 = 0.082_213_596_293_550_800_231_490_45;
     G5 = 0.798_543_990_934_829_963_398_950_35;
-    9: [G1 G2 G3 G4 G5 G4 G3 G2 G1]
+    [G1 G2 G3 G4 G5 G4 G3 G2 G1]
 }
 
 // Kahan & Li, Math. Comp. 66, 1997, as in Hairer, Lubich & Wanner, eq. V.3.12
@@ -83,7 +69,7 @@ composition! {
     G7 = 0.258_374_387_686_322_047_293_979_11,
     G8 = 0.295_011_723_609_310_298_870_966_24;
     G9 = -0.605_508_533_830_034_511_698_921_08;
-    17: [G1 G2 G3 G4 G5 G6 G7 G8 G9 G8 G7 G6 G5 G4 G3 G2 G1]
+    [G1 G2 G3 G4 G5 G6 G7 G8 G9 G8 G7 G6 G5 G4 G3 G2 G1]
 }
 
 #[cfg(test)]

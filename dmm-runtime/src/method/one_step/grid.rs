@@ -25,9 +25,10 @@ impl Grid {
             start,
             end,
             step_size,
-            count: match end > start {
-                true => (steps - Self::NEGLIGIBLE).ceil().max(1.0) as u64,
-                false => 0,
+            count: if end > start {
+                (steps - Self::NEGLIGIBLE).ceil().max(1.0) as u64
+            } else {
+                0
             },
         }
     }

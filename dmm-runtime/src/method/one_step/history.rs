@@ -8,7 +8,7 @@ const LENGTH: usize = 6;
 
 /// The latest increments (or velocities) of steps that follow one another, the latest first.
 #[derive(Clone, Copy, Debug)]
-pub struct History<const N: usize> {
+pub(super) struct History<const N: usize> {
     recent: [Vector<f64, N>; LENGTH],
     /// How many of them there are.
     known: usize,

@@ -27,7 +27,7 @@ pub trait OneStep: Clone + Sync {
     type Memory<const N: usize>: Clone + Debug;
 
     /// The order p of accuracy.
-    const ORDER: usize;
+    fn order(&self) -> usize;
 
     /// The memory at the start of a segment, of steps of one size if that is given.
     fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(

@@ -8,6 +8,7 @@
 mod adaptive;
 mod composed;
 mod compositions;
+mod conclusion;
 mod crossing;
 mod dip;
 mod grid;
@@ -25,7 +26,7 @@ mod uniform;
 mod watch;
 
 pub use adaptive::Adaptive;
-pub use composed::Composed;
+pub use composed::{Composed, SubSteps};
 pub use compositions::Composition;
 pub use crossing::{Crossing, Located, Locator, NewtonLocator};
 pub use map::{Correction, OneStep, Step};

@@ -31,9 +31,10 @@ impl<const N: usize> Propagator<N> {
             let solution = solve(&matrix, &column.clone_owned())?;
             column.copy_from(&solution);
         }
-        let offset = match offset == zero {
-            true => None,
-            false => Some(solve(&matrix, &(offset * tau))?),
+        let offset = if offset == zero {
+            None
+        } else {
+            Some(solve(&matrix, &(offset * tau))?)
         };
         Some(Self { linear, offset })
     }

@@ -118,18 +118,16 @@ impl<const N: usize> Memory<N> {
         } = *step;
         let start = (t0, *x0, tau);
         let mut solved = increment;
-        let failure = match looks {
-            false => newton(dynamics, start, &mut solved, statistics),
-            true => {
-                let mut sweeps = Sweeps::new();
-                let failure =
-                    newton_and_look(dynamics, start, &mut solved, &mut sweeps, statistics);
-                // until predictions are as good as they become, the next step looks again
-                if self.increments.is_full() {
-                    self.sweeps = sweeps;
-                }
-                failure
+        let failure = if looks {
+            let mut sweeps = Sweeps::new();
+            let failure = newton_and_look(dynamics, start, &mut solved, &mut sweeps, statistics);
+            // until predictions are as good as they become, the next step looks again
+            if self.increments.is_full() {
+                self.sweeps = sweeps;
             }
+            failure
+        } else {
+            newton(dynamics, start, &mut solved, statistics)
         };
         match failure {
             None => Ok(solved),
@@ -194,7 +192,9 @@ fn newton_and_look<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
 impl OneStep for Symmetric {
     type Memory<const N: usize> = Memory<N>;
 
-    const ORDER: usize = 2;
+    fn order(&self) -> usize {
+        2
+    }
 
     fn begin<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         &self,
@@ -215,9 +215,10 @@ impl OneStep for Symmetric {
 
     #[inline(always)]
     fn correction_interval<const N: usize>(memory: &Memory<N>) -> u64 {
-        match memory.long && !memory.sweeps.enough {
-            true => 8,
-            false => 32,
+        if memory.long && !memory.sweeps.enough {
+            8
+        } else {
+            32
         }
     }
 

@@ -4,7 +4,7 @@ use super::crossing::{Locator, NewtonLocator};
 use super::grid::Grid;
 use super::map::{OneStep, Step};
 use super::resolution::Resolution;
-use super::search::{Dense, Watches, active, advance, is_near, readings, through_ends, watches};
+use super::search::{Dense, Watches, advance, is_near, readings, through_ends, watches};
 use super::segment::Segment;
 use super::watch::Watch;
 use crate::arithmetic::linear::is_finite;
@@ -169,8 +169,7 @@ impl<Map: OneStep, Loc: Locator> Method for Uniform<Map, Loc> {
             };
             let Some(end) = end else { continue };
             if end == Ended::Stopped {
-                steps.segment.cursor.active = active(dynamics, &watches);
-                steps.segment.cursor.level = Some(level.kept());
+                steps.segment.keep(dynamics, &level, &watches);
             }
             return Ok(end);
         }
@@ -254,9 +253,10 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
             let stride = loop {
                 let (t0, t1) = (grid.inner_value(node - 1), grid.inner_value(node));
                 // telescoping sums need the very times that ψ(t, x) is evaluated at
-                let tau = match dynamics.is_autonomous() {
-                    true => grid.step_size,
-                    false => t1 - t0,
+                let tau = if dynamics.is_autonomous() {
+                    grid.step_size
+                } else {
+                    t1 - t0
                 };
                 let step = Step {
                     dynamics,
@@ -300,9 +300,10 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
                 self.segment.outputs(dynamics, tau, end)?;
             }
             if corrects {
-                next = match corrects_level {
-                    true => on_level(dynamics, level, (state, increment), (grid, node)),
-                    false => next.normalised(),
+                next = if corrects_level {
+                    on_level(dynamics, level, (state, increment), (grid, node))
+                } else {
+                    next.normalised()
                 };
                 // ψ may leave the range of doubles where the state does not
                 if !is_finite(&next.x) {
@@ -354,13 +355,9 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
             if let Some(end) = self.look_at(dynamics, level, watches, tau, &increment)? {
                 return Ok(Some(end));
             }
-            self.segment.outputs(dynamics, tau, end)?;
-            self.segment.accept(dynamics, level, &increment, tau, end)?;
-            let cursor = &*self.segment.cursor;
-            let values = readings::<N, M, D>(dynamics, end.value, &cursor.state.x);
-            advance(watches, &values, true);
+            let end = (tau, end);
+            stops = (self.segment).conclude(dynamics, level, watches, &increment, end)?;
             watches.as_mut().iter_mut().for_each(Watch::restart);
-            stops = self.segment.sink.point(end, &cursor.state).is_break();
         }
         self.memory.node += 1;
         self.memory.at_node = tau >= 0.0;

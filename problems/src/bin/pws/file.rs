@@ -7,7 +7,7 @@ use std::path::Path;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use dmm_compiler::diagnostics::Diagnostics;
-use dmm_compiler::text::{self, Message};
+use dmm_compiler::text;
 use proc_macro2::TokenStream;
 
 use crate::failure::Failure;

@@ -1,5 +1,5 @@
 //! The hash-consed expression DAG: equal expressions are the same [`Id`]. Every node is made
-//! through its constructors; what hangs below a root is walked in [`traversal`].
+//! through its constructors; what a root is made of is found in [`traversal`].
 
 mod constructors;
 mod traversal;

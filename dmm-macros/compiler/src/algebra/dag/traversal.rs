@@ -1,4 +1,4 @@
-//! Walks over what a root is made of: its nodes, variables and size, and substitution.
+//! What a root is made of: its nodes, variables and size, and substitution.
 
 use std::collections::HashMap;
 

@@ -9,27 +9,27 @@ use super::super::{Dag, Id, Math, Name};
 use super::ends::Ends;
 
 /// A local weight wᵢ = `factor`/`divisor` in Δu = Σ wᵢ Δuᵢ.
-pub(in crate::algebra) struct Weight {
+pub(super) struct Weight {
     pub(super) factor: Id,
     pub(super) divisor: Option<Id>,
 }
 
 impl Weight {
-    pub(in crate::algebra) fn factor(factor: Id) -> Self {
+    pub(super) fn factor(factor: Id) -> Self {
         Self {
             factor,
             divisor: None,
         }
     }
 
-    pub(in crate::algebra) fn quotient(factor: Id, divisor: Id) -> Self {
+    pub(super) fn quotient(factor: Id, divisor: Id) -> Self {
         Self {
             factor,
             divisor: Some(divisor),
         }
     }
 
-    pub(in crate::algebra) fn negated(self, dag: &mut Dag) -> Self {
+    pub(super) fn negated(self, dag: &mut Dag) -> Self {
         Self {
             factor: dag.neg(self.factor),
             ..self
@@ -46,9 +46,9 @@ impl Weight {
 }
 
 /// What is formed over the two ends of a step.
-pub(in crate::algebra) struct Step<'a> {
-    pub(in crate::algebra) dag: &'a mut Dag,
-    pub(in crate::algebra) ends: Ends,
+pub(super) struct Step<'a> {
+    pub(super) dag: &'a mut Dag,
+    pub(super) ends: Ends,
     differences: HashMap<Id, Id>,
     means: HashMap<Id, Id>,
 }

@@ -40,7 +40,7 @@ fn variable_mean(dag: &mut Dag, name: &Name) -> Id {
 }
 
 /// The nodes below a root with their images at the two ends of a step.
-pub(in crate::algebra) struct Ends {
+pub(super) struct Ends {
     /// The nodes that depend on the variables, children before parents.
     pub(super) order: Vec<Id>,
     /// Their values at the start and at the end.
@@ -76,7 +76,7 @@ impl Ends {
     }
 
     /// \[u₀, u₁\]
-    pub(in crate::algebra) fn of(&self, id: Id) -> [Id; 2] {
+    pub(super) fn of(&self, id: Id) -> [Id; 2] {
         self.images.get(&id).copied().unwrap_or([id, id])
     }
 }

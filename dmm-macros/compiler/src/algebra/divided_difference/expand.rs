@@ -17,7 +17,7 @@ pub(super) fn expand_divided_differences(dag: &mut Dag, root: Id) -> Id {
         let image = match node {
             Math::Call(function, u) => match function.properties().difference {
                 Difference::Definition(definition) => definition(dag, u),
-                Difference::Weight(_) => dag.rebuild(&node),
+                _ => dag.rebuild(&node),
             },
             Math::Pair(function, [a, b]) => pair_quotient(dag, function, a, b),
             _ => dag.rebuild(&node),

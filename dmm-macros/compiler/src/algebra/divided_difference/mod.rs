@@ -14,11 +14,11 @@
 //! | uⁿ | (Σ u₁ʲ u₀ⁿ⁻¹⁻ʲ) Δu |
 //! | u^(p/q) | through w = u^(1/q), Δw = Δu/Σ w₁ʲ w₀^(q−1−j) |
 //! | u^v | as exp(v ln u) |
-//! | h(u) | h\[u₀, u₁\] Δu, as the file of the function writes it |
+//! | h(u) | h\[u₀, u₁\] Δu, as the file of the function says |
 //!
 //! Each rule is exact, symmetric under an exchange of the ends, and free of cancellation:
-//! there is no quotient by Δ. Those of functions stand in the folder `functions`, the others in
-//! `rules` with their sums in `powers`; `chain` chains them backwards from the root.
+//! there is no quotient by Δ. They stand in `rules`, with their sums in `powers`; which of them a function
+//! has is said in the folder `functions`. `chain` chains them backwards from the root.
 
 mod chain;
 mod ends;
@@ -27,7 +27,7 @@ mod powers;
 mod rules;
 
 use super::{Dag, Id, Name};
-pub(super) use chain::{Step, Weight};
+use chain::Step;
 pub use ends::{at_end, at_midpoint, at_start};
 use expand::expand_divided_differences;
 

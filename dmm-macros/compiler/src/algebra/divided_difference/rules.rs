@@ -103,25 +103,34 @@ impl Step<'_> {
 
     fn call(&mut self, function: Function, u: Id) -> Weight {
         match function.properties().difference {
-            Difference::Weight(weight) => weight(self, u),
+            Difference::AtMean([outer, cardinal]) => self.at_mean(outer, cardinal, u),
+            Difference::MinusAtMean([outer, cardinal]) => {
+                let weight = self.at_mean(outer, cardinal, u);
+                weight.negated(self.dag)
+            }
+            Difference::AtEnds([outer, cardinal]) => self.at_ends(outer, cardinal, u),
+            Difference::Pair(function) => Weight::factor(self.pair(function, u)),
+            Difference::MinusPair(function) => {
+                let weight = Weight::factor(self.pair(function, u));
+                weight.negated(self.dag)
+            }
+            Difference::Quotient(quotient) => {
+                let [factor, divisor] = quotient(self.dag, self.ends.of(u));
+                Weight::quotient(factor, divisor)
+            }
             // its definition took its place before
             Difference::Definition(_) => Weight::factor(self.dag.integer(1)),
         }
     }
 
     /// h\[u₀, u₁\]
-    pub(in crate::algebra) fn pair(&mut self, function: PairFunction, u: Id) -> Id {
+    fn pair(&mut self, function: PairFunction, u: Id) -> Id {
         let [start, end] = self.ends.of(u);
         self.dag.pair(function, start, end)
     }
 
     /// `outer`(ū)·`cardinal`(Δu/2)
-    pub(in crate::algebra) fn at_mean(
-        &mut self,
-        outer: Function,
-        cardinal: Function,
-        u: Id,
-    ) -> Weight {
+    fn at_mean(&mut self, outer: Function, cardinal: Function, u: Id) -> Weight {
         let mean = self.mean(u);
         let half_difference = self.half_difference(u);
         let outer = self.dag.call(outer, mean);
@@ -131,12 +140,7 @@ impl Step<'_> {
 
     /// (`cardinal`(Δu)/`outer`(u₀))/`outer`(u₁): divided twice, because the product of two
     /// large values of cosh would overflow first.
-    pub(in crate::algebra) fn at_ends(
-        &mut self,
-        outer: Function,
-        cardinal: Function,
-        u: Id,
-    ) -> Weight {
+    fn at_ends(&mut self, outer: Function, cardinal: Function, u: Id) -> Weight {
         let difference = self.difference(u);
         let cardinal = self.dag.call(cardinal, difference);
         let [start, end] = self.ends.of(u).map(|u| self.dag.call(outer, u));

@@ -1,7 +1,6 @@
 //! The size of a number, with Δ|u| = (u₁ + u₀)/(|u₁| + |u₀|) Δu.
 
 use super::{Difference, Domain, Equation, Form, Function, Latex, Properties};
-use crate::algebra::divided_difference::Weight;
 
 /// |u|
 pub(super) const ABS: Properties = Properties {
@@ -17,11 +16,10 @@ pub(super) const ABS: Properties = Properties {
         let size = dag.call(Function::Abs, u);
         dag.div(u, size)
     },
-    difference: Difference::Weight(|step, u| {
-        let [start, end] = step.ends.of(u);
-        let sizes = [end, start].map(|u| step.dag.call(Function::Abs, u));
-        let divisor = step.dag.add(sizes[0], sizes[1]);
-        Weight::quotient(step.dag.add(end, start), divisor)
+    difference: Difference::Quotient(|dag, [start, end]| {
+        let sizes = [end, start].map(|u| dag.call(Function::Abs, u));
+        let divisor = dag.add(sizes[0], sizes[1]);
+        [dag.add(end, start), divisor]
     }),
     value: f64::abs,
     slope: |_| 1.0,

@@ -1,7 +1,6 @@
 //! The arc cosine π/2 − asin u, with Δ acos u = −asin\[u₀, u₁\] Δu.
 
 use super::{Difference, Domain, Equation, Form, Function, Latex, PairFunction, Properties};
-use crate::algebra::divided_difference::Weight;
 use crate::algebra::evaluate::Interval;
 
 /// acos u
@@ -18,10 +17,7 @@ pub(super) const ACOS: Properties = Properties {
         let of_asin = Function::Asin.derivative(dag, u);
         dag.neg(of_asin)
     },
-    difference: Difference::Weight(|step, u| {
-        let of_asin = step.pair(PairFunction::AsinDd, u);
-        Weight::factor(step.dag.neg(of_asin))
-    }),
+    difference: Difference::MinusPair(PairFunction::AsinDd),
     value: f64::acos,
     slope: |u| 1.0 / (1.0 - u * u).sqrt(),
     enclosure,

@@ -2,7 +2,6 @@
 
 use super::atan::quotient;
 use super::{Difference, Domain, Equation, Form, Latex, Pair, PairFunction, Properties};
-use crate::algebra::divided_difference::Weight;
 use crate::algebra::evaluate::Interval;
 
 /// asin u
@@ -22,7 +21,7 @@ pub(super) const ASIN: Properties = Properties {
         let root = dag.sqrt(difference);
         dag.div(one, root)
     },
-    difference: Difference::Weight(|step, u| Weight::factor(step.pair(PairFunction::AsinDd, u))),
+    difference: Difference::Pair(PairFunction::AsinDd),
     value: f64::asin,
     slope: |u| 1.0 / (1.0 - u * u).sqrt(),
     enclosure,

@@ -1,7 +1,6 @@
 //! The arc tangent, with Δ atan u = atan\[u₀, u₁\] Δu.
 
 use super::{Difference, Domain, Equation, Form, Latex, Pair, PairFunction, Properties};
-use crate::algebra::divided_difference::Weight;
 
 /// atan u
 pub(super) const ATAN: Properties = Properties {
@@ -19,7 +18,7 @@ pub(super) const ATAN: Properties = Properties {
         let sum = dag.add(one, square);
         dag.div(one, sum)
     },
-    difference: Difference::Weight(|step, u| Weight::factor(step.pair(PairFunction::AtanDd, u))),
+    difference: Difference::Pair(PairFunction::AtanDd),
     value: f64::atan,
     slope: |u| 1.0 / (1.0 + u * u),
     enclosure: |u| u.rising(f64::atan).without_zero(u.nonzero),

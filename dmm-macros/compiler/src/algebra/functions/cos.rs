@@ -16,10 +16,7 @@ pub(super) const COS: Properties = Properties {
         let sine = dag.call(Function::Sin, u);
         dag.neg(sine)
     },
-    difference: Difference::Weight(|step, u| {
-        let weight = step.at_mean(Function::Sin, Function::Sinc, u);
-        weight.negated(step.dag)
-    }),
+    difference: Difference::MinusAtMean([Function::Sin, Function::Sinc]),
     value: f64::cos,
     slope: f64::sin,
     enclosure: |u| u.around_middle(f64::cos),

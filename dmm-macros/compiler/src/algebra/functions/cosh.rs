@@ -13,7 +13,7 @@ pub(super) const COSH: Properties = Properties {
     right_inverse: None,
     form: Form::Hyperbolic { is_odd: false },
     derivative: |dag, u| dag.call(Function::Sinh, u),
-    difference: Difference::Weight(|step, u| step.at_mean(Function::Sinh, Function::Sinhc, u)),
+    difference: Difference::AtMean([Function::Sinh, Function::Sinhc]),
     value: f64::cosh,
     slope: f64::sinh,
     enclosure: |u| u.size().rising(f64::cosh).above(1.0),

@@ -14,7 +14,7 @@ pub(super) const EXP: Properties = Properties {
     right_inverse: Some(Function::Ln),
     form: Form::Exponential,
     derivative: |dag, u| dag.call(Function::Exp, u),
-    difference: Difference::Weight(|step, u| step.at_mean(Function::Exp, Function::Sinhc, u)),
+    difference: Difference::AtMean([Function::Exp, Function::Sinhc]),
     value: f64::exp,
     slope: f64::exp,
     enclosure,

@@ -1,7 +1,6 @@
 //! The natural logarithm, with Δ ln u = ln\[u₀, u₁\] Δu.
 
 use super::{Difference, Domain, Equation, Form, Function, Latex, Pair, PairFunction, Properties};
-use crate::algebra::divided_difference::Weight;
 use crate::algebra::evaluate::{Interval, LIBRARY_STEPS};
 
 /// ln u
@@ -18,7 +17,7 @@ pub(super) const LN: Properties = Properties {
         let one = dag.integer(1);
         dag.div(one, u)
     },
-    difference: Difference::Weight(|step, u| Weight::factor(step.pair(PairFunction::LnDd, u))),
+    difference: Difference::Pair(PairFunction::LnDd),
     value: f64::ln,
     slope: |u| 1.0 / u,
     enclosure,

@@ -1,7 +1,6 @@
 //! What the stages read of a function.
 
-use super::Function;
-use crate::algebra::divided_difference::{Step, Weight};
+use super::{Function, PairFunction};
 use crate::algebra::evaluate::Interval;
 use crate::algebra::{Dag, Id};
 
@@ -25,7 +24,7 @@ pub(crate) struct Properties {
     pub(in crate::algebra) form: Form,
     /// h′(u)
     pub(in crate::algebra) derivative: fn(&mut Dag, Id) -> Id,
-    /// The factor in Δh(u) = factor·Δu over a step.
+    /// The factor in Δh(u) = factor·Δu over a step, exact and symmetric.
     pub(in crate::algebra) difference: Difference,
     /// h(u)
     pub(crate) value: fn(f64) -> f64,
@@ -108,10 +107,20 @@ pub(in crate::algebra) enum Form {
     CardinalPrime([Function; 2]),
 }
 
-/// The factor in Δh(u) = factor·Δu over a step.
+/// The factor in Δh(u) = factor·Δu over a step, exact and symmetric.
 pub(in crate::algebra) enum Difference {
-    /// It is this one, exact and symmetric.
-    Weight(fn(&mut Step<'_>, Id) -> Weight),
+    /// p(ū)·q(Δu/2) of p and q, with ū the mean of the ends.
+    AtMean([Function; 2]),
+    /// −p(ū)·q(Δu/2)
+    MinusAtMean([Function; 2]),
+    /// q(Δu)/(p(u₀) p(u₁)) of p and q.
+    AtEnds([Function; 2]),
+    /// h\[u₀, u₁\]
+    Pair(PairFunction),
+    /// −h\[u₀, u₁\]
+    MinusPair(PairFunction),
+    /// p/q of the p and q that are made of u₀ and u₁.
+    Quotient(fn(&mut Dag, [Id; 2]) -> [Id; 2]),
     /// That of the quotient that defines h, which takes the place of h.
     Definition(fn(&mut Dag, Id) -> Id),
 }

@@ -13,7 +13,7 @@ pub(super) const SIN: Properties = Properties {
     right_inverse: Some(Function::Asin),
     form: Form::Circular { is_odd: true },
     derivative: |dag, u| dag.call(Function::Cos, u),
-    difference: Difference::Weight(|step, u| step.at_mean(Function::Cos, Function::Sinc, u)),
+    difference: Difference::AtMean([Function::Cos, Function::Sinc]),
     value: f64::sin,
     slope: f64::cos,
     enclosure: |u| u.around_middle(f64::sin),

@@ -13,7 +13,7 @@ pub(super) const SINH: Properties = Properties {
     right_inverse: None,
     form: Form::Hyperbolic { is_odd: true },
     derivative: |dag, u| dag.call(Function::Cosh, u),
-    difference: Difference::Weight(|step, u| step.at_mean(Function::Cosh, Function::Sinhc, u)),
+    difference: Difference::AtMean([Function::Cosh, Function::Sinhc]),
     value: f64::sinh,
     slope: f64::cosh,
     enclosure: |u| u.rising(f64::sinh).without_zero(u.nonzero),

@@ -1,7 +1,6 @@
 //! The square root √u, with Δ√u = Δu/(√u₁ + √u₀).
 
 use super::{Difference, Domain, Equation, Form, Latex, Properties};
-use crate::algebra::divided_difference::Weight;
 use crate::algebra::evaluate::Interval;
 
 /// √u
@@ -18,10 +17,10 @@ pub(super) const SQRT: Properties = Properties {
         let [half, root] = [dag.fraction(1, 2), dag.sqrt(u)];
         dag.div(half, root)
     },
-    difference: Difference::Weight(|step, u| {
-        let [start, end] = step.ends.of(u).map(|u| step.dag.sqrt(u));
-        let sum = step.dag.add(end, start);
-        Weight::quotient(step.dag.integer(1), sum)
+    difference: Difference::Quotient(|dag, ends| {
+        let [start, end] = ends.map(|u| dag.sqrt(u));
+        let sum = dag.add(end, start);
+        [dag.integer(1), sum]
     }),
     value: f64::sqrt,
     slope: |u| 0.5 / u.sqrt(),

@@ -18,7 +18,7 @@ pub(super) const TAN: Properties = Properties {
         let square = dag.powi(tangent, 2);
         dag.add(one, square)
     },
-    difference: Difference::Weight(|step, u| step.at_ends(Function::Cos, Function::Sinc, u)),
+    difference: Difference::AtEnds([Function::Cos, Function::Sinc]),
     value: f64::tan,
     slope: |u| 1.0 + u.tan() * u.tan(),
     enclosure: |u| u.call(Function::Sin) / u.call(Function::Cos),

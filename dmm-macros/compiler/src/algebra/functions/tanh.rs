@@ -20,7 +20,7 @@ pub(super) const TANH: Properties = Properties {
         let one = dag.integer(1);
         dag.div(one, square)
     },
-    difference: Difference::Weight(|step, u| step.at_ends(Function::Cosh, Function::Sinhc, u)),
+    difference: Difference::AtEnds([Function::Cosh, Function::Sinhc]),
     value: f64::tanh,
     slope: |u| 1.0 / (u.cosh() * u.cosh()),
     enclosure,

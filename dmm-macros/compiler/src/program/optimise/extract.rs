@@ -131,8 +131,8 @@ impl<'a> Selection<'a> {
         }
     }
 
-    /// Looks for classes that are not computed, and pay if they are because several others
-    /// become cheaper by them: the reciprocal of a divisor that several quotients have.
+    /// Looks for classes that are not computed and lower the cost if they are, because several
+    /// others become cheaper by them: the reciprocal of a divisor that several quotients have.
     fn introduce(&mut self, round: usize) {
         for class in 0..self.table.classes.len() {
             if self.uses[class] > 0 || self.bound[class] == u64::MAX || self.refused[class] {
@@ -159,7 +159,7 @@ impl<'a> Selection<'a> {
         }
     }
 
-    /// The classes that become cheaper if `class` is computed, provided that this pays.
+    /// The classes that become cheaper if `class` is computed, provided that this lowers the cost.
     fn gaining(&self, class: Class) -> Vec<Class> {
         let (mut saving, mut users) = (0, Vec::new());
         for &(node, user) in &self.table.parents[class] {

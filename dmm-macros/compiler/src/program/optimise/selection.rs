@@ -18,7 +18,7 @@ pub(super) struct Selection<'a> {
     pub(super) completion: Vec<Node>,
     /// By class: what that costs at least.
     pub(super) bound: Vec<u64>,
-    /// By class: whether computing it was tried, and did not pay.
+    /// By class: whether computing it was tried, and did not lower the cost.
     pub(super) refused: Vec<bool>,
     /// What was done since it began to matter, for taking it back.
     pub(super) log: Vec<Change>,

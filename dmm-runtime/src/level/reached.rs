@@ -1,0 +1,153 @@
+//! The end of a step, put back on the level.
+
+use super::weights::COARSE;
+use super::{LITTLE, Level, Weights, remainder, row};
+use crate::arithmetic::linear::dot;
+use crate::arithmetic::masked::{Mask, Masked, vector};
+use crate::arithmetic::{State, Time};
+use crate::contract::{Dynamics, Vector};
+
+impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
+    /// The state that a step over `displacement` has come to, put back on the level if it
+    /// `corrects`, in the lanes that are `used`.
+    #[inline(always)]
+    pub(crate) fn reached<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        displacement: &Vector<S, N>,
+        (corrects, used): (bool, S::Mask),
+    ) -> State<N, S> {
+        if M == 0 || dynamics.quantities() == 0 || !corrects {
+            return state.normalised();
+        }
+        let weights = Weights::new(&state.x, displacement);
+        if M == 1 {
+            return self.reached_at_once(dynamics, time, state, (&weights, used));
+        }
+        self.step_by_step(dynamics, time, state, (&weights, used))
+    }
+
+    /// The same for one quantity, where it has some slope. What a large correction leaves, the
+    /// square of it, is taken off with the same slope.
+    #[inline(always)]
+    fn reached_at_once<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        (weights, used): (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
+        let row = row(&multiplier, 0);
+        let weighted = weights.times(&row);
+        let square = dot(&row, &weighted);
+        let steep = square.above(self.bound(LITTLE, weights)[0]);
+        let flat = steep.not().and(used);
+        if !steep.and(used).any() {
+            return self.reached_by_steps(dynamics, time, state, (weights, flat));
+        }
+        let inverse = S::from_f64(1.0) / square;
+        let gain: Vector<S, N> = vector(|i| weighted[i] * inverse);
+        let off = remainder(dynamics, time, &state);
+        let first = self.rounded_residual(&psi, &multiplier, &off)[0];
+        let mut reached = less(state, &gain, first);
+        let coarse = square * (weights.unit * S::from_f64(COARSE * COARSE));
+        let mut rest = flat;
+        let again = (first * first).above(coarse).and(steep).and(used);
+        if again.any() {
+            let psi = dynamics.conserved(time.value, &reached.x);
+            let off = remainder(dynamics, time, &reached);
+            let second = self.rounded_residual(&psi, &multiplier, &off)[0];
+            reached = select(again, &less(reached, &gain, second), &reached);
+            // the same slope again leaves the product of the two
+            rest = rest.or(again.and((first * second).abs().above(coarse)));
+        }
+        if rest.any() {
+            reached = select(flat, &state, &reached);
+            reached = self.reached_by_steps(dynamics, time, reached, (weights, rest));
+        }
+        reached
+    }
+
+    /// The same by one correction after the other, while the square of the last one is no rounding
+    /// error; in the lanes that are `used`.
+    #[inline(always)]
+    fn reached_by_steps<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        how: (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        // what is not inlined does not compute in lanes
+        if S::LANES == 1 {
+            self.step_by_step_apart(dynamics, time, state, how)
+        } else {
+            self.step_by_step(dynamics, time, state, how)
+        }
+    }
+
+    #[inline(never)]
+    fn step_by_step_apart<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        how: (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        self.step_by_step(dynamics, time, state, how)
+    }
+
+    #[inline(always)]
+    fn step_by_step<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        mut state: State<N, S>,
+        (weights, mut used): (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        /// The error falls to its square each time, and then to the part that damping leaves.
+        const MOST: u32 = 9;
+        for _ in 0..MOST {
+            let displacement = self.correction(dynamics, time, &state, weights);
+            let mut moved = state;
+            for i in 0..N {
+                moved.remainder[i] += displacement[i];
+            }
+            state = select(used, &moved.normalised(), &state);
+            used = used.and(weights.are_left_by(&displacement));
+            if !used.any() {
+                break;
+            }
+        }
+        state
+    }
+}
+
+/// The state without `gain` times a residual.
+#[inline(always)]
+fn less<const N: usize, S: Masked>(
+    mut state: State<N, S>,
+    gain: &Vector<S, N>,
+    residual: S,
+) -> State<N, S> {
+    for i in 0..N {
+        state.remainder[i] -= gain[i] * residual;
+    }
+    state.normalised()
+}
+
+/// The one state where a mask is true, the other elsewhere.
+#[inline(always)]
+pub(super) fn select<const N: usize, S: Masked>(
+    mask: S::Mask,
+    one: &State<N, S>,
+    other: &State<N, S>,
+) -> State<N, S> {
+    State {
+        x: mask.select_vector(&one.x, &other.x),
+        remainder: mask.select_vector(&one.remainder, &other.remainder),
+    }
+}
