@@ -45,14 +45,17 @@
 /// | `let r = sqrt(x^2 + y^2);` | a shared sub-expression |
 /// | `fn V(q, k) = k * q^2/2;` | a function, written out wherever it is called; in its formula an argument hides what else has its name |
 /// | `interface name = g;` | an interface, the zero set of the switching function g |
-/// | `region name where i > 0 { … }` | where the fields and conserved quantities in the block hold |
+/// | `region name where i > 0 and j < 0 { … }` | where the fields and conserved quantities in the block hold: a sign pattern, from which an interface that does not matter is left out |
+/// | `discrete u = 1;` | a discrete state with its initial value: constant between events, changed by them |
+/// | `on name falling where u < 3 { x = …; u = …; }` | an event: what changes where g falls (or `rising`, or neither for both) through zero and a condition holds, see [Events](#events) |
+/// | `every T { … }`, `at t1 { … }` | events at the times T, 2T, … and t1 |
 /// | `der(x) = formula;` | ẋ, once a state in every region |
 /// | `hamiltonian H = formula in (q, p), …;` | q̇ = ∂H/∂p and ṗ = −∂H/∂q for each canonical pair, which conserve H unless it depends on `t` |
 /// | `conserved name = formula;` | a conserved quantity ψ, any number a region |
 /// | `assume conserved name = formula;` | the same where the proof is out of the compiler's reach: it is checked at many points instead, and said so in the listing |
 /// | `for i in 0..n { … }` | repeats `der`, `conserved` and `for` items for i = 0, …, n − 1 |
 ///
-/// A region has `let`, `der`, `hamiltonian`, `conserved` and `for` items. What of them stands at
+/// A region has `let`, `der`, `hamiltonian`, `conserved`, `on` and `for` items. What of them stands at
 /// the top level belongs to every region: a system without interface has all of them there.
 /// Names are declared in front of their use. Documentation comments carry over to what is
 /// emitted.
@@ -63,6 +66,7 @@
 /// |---|---|
 /// | operators | `+ - * / ^`; `^` is the power: it binds tighter than the unary minus, and from the right |
 /// | functions | `sqrt exp ln sin cos tan sinh cosh tanh asin acos atan`, and those declared with `fn` |
+/// | switches | `if a > b { u } else { v }`, `abs(u)`, `sign(u)`, `min(u, v)`, `max(u, v)`, `clamp(u, low, high)`: see [Switches](#switches) |
 /// | names | states, parameters, constants, `let`s, the time `t`, `pi` |
 /// | numbers | `2`, `0.1`, `1e-3`: exact rationals until code is emitted |
 /// | elements | `q[0]`, `q[i + 1]`, `q[(i + 1) % n]`: an index is a formula of integer constants, counted from 0; `%` is the remainder of such |
@@ -173,6 +177,97 @@
 ///     assert_eq!(region.conserved, ["angular_momentum", "energy"]);
 /// }
 /// ```
+///
+/// # Switches
+///
+/// What a formula switches at is an interface of its own, which has the name of its formula: a − b of
+/// `if a > b`, u of `abs(u)`. It is located and crossed like any other. On which side of it a solution
+/// is belongs to the mode, so that there is one field however many switches there are; conserved
+/// quantities may switch as well, and are proved on both sides.
+///
+/// ```
+/// use dmm_runtime::{Integrator, System, Taylor, pws};
+///
+/// pws! {
+///     /// Grains on a line that push, and do not pull.
+///     pub system Grains {
+///         const n = 3;
+///         state q[n], p[n];
+///         fn overlap(r) = if r < 0 { r^2 / 2 } else { 0 };
+///         hamiltonian energy =
+///             sum(i in 0..n, p[i]^2 / 2) + sum(i in 1..n, overlap(q[i] - q[i - 1])) in (q, p);
+///     }
+/// }
+///
+/// let grains = Grains {};
+/// assert_eq!(grains.metadata().interfaces, ["q[0] - q[1]", "q[1] - q[2]"]);
+/// let solution = Integrator::new(&grains, Taylor::tolerance(1e-12))
+///     .initial(0.0, [0.0, 0.5, 1.0, 1.0, 0.0, 0.0])
+///     .run_until(20.0)?;
+/// let end = solution.last().expect("an end");
+/// let energy = grains.conserved(end.region, end.t, &end.x)[0];
+/// assert!((energy - 0.5).abs() < 1e-15);
+/// # Ok::<(), dmm_runtime::Error>(())
+/// ```
+///
+/// Both branches are computed, and the one that does not hold counts nothing: it needs a value all
+/// the same, so that roots, logarithms and quotients of what moves are refused in a branch. Write
+/// regions there.
+///
+/// # Events
+///
+/// An event changes states and discrete states in an instant; every new value is computed from the
+/// values before. A bouncing ball, and a thermostat that remembers which bound it met last:
+///
+/// ```
+/// use dmm_runtime::{Best, Integrator, TransitionKind, pws};
+///
+/// pws! {
+///     /// A ball that loses speed where it bounces, and is thrown up again from time to time.
+///     pub system Ball {
+///         state y, v;
+///         param e = 0.9;
+///         discrete bounces = 0;
+///         interface floor = y;
+///         der(y) = v;
+///         der(v) = -1;
+///         conserved energy = v^2/2 + y;
+///         on floor falling where bounces < 3 {
+///             v = -e * v;
+///             bounces = bounces + 1;
+///         }
+///         on floor falling where bounces > 2 {
+///             v = -v;
+///             bounces = bounces + 1;
+///             conserves energy;
+///         }
+///         every 10 { v = v + 1; }
+///     }
+/// }
+///
+/// let solution = Integrator::new(&Ball::default(), Best::tolerance(1e-12))
+///     .initial(0.0, [0.5, 0.0])
+///     .run_until(15.0)?;
+/// let first = solution.transitions()[0];
+/// assert_eq!(first.kind, TransitionKind::Jumped);
+/// assert!((first.t - 1.0).abs() < 1e-14 && (first.after[1] - 0.9).abs() < 1e-14);
+/// let throw = solution.transitions().iter().find(|one| one.interface == 1);
+/// assert_eq!(throw.map(|one| one.t), Some(10.0));
+/// assert!(solution.last().is_some_and(|end| end.region.discrete[0] > 6.0));
+/// # Ok::<(), dmm_runtime::Error>(())
+/// ```
+///
+/// - The level of each conserved quantity is taken anew behind an event. What an event claims to
+///   conserve, `conserves energy;`, is proved at the points of its interface, or it does not compile.
+/// - The mode behind an event is decided as at a start: by the signs of all interfaces, and by dg/dt
+///   on those that the new state is on. An event does not happen again at the point it has led to.
+/// - An event asks for a direction: crossed the other way, its interface is passed in silence.
+/// - Events that happen at once all see the values before. If they give a state different values, the
+///   run ends with [`ErrorKind::Conflict`](crate::ErrorKind::Conflict).
+/// - Events that follow one another faster than the time can tell end a run as
+///   [`ErrorKind::Zeno`](crate::ErrorKind::Zeno), with all that came before.
+/// - `every T` happens at the multiples of T behind the initial time, `at t1` if t1 is behind it.
+/// - The mode of a system with events is a [`Mode`](crate::Mode): its region, with the discrete states.
 ///
 /// # Where a proof holds
 ///

@@ -63,16 +63,37 @@
 //! | word | meaning |
 //! |---|---|
 //! | region, interface | where one vector field f holds; the zero set of a switching function g |
-//! | mode | what a run is in: a region. It is explicit state, never read off the sign of g |
+//! | mode | what a run is in: a region, with what is constant between events ([`Mode`]). It is explicit state, never read off the sign of g |
+//! | event | a change of states in an instant, where an interface is crossed or at a time |
 //! | dynamics | what is derived for a mode: f, ψ, Λ, f^τ with its Jacobian, recurrences ([`Dynamics`]) |
 //! | guard | a function whose zero ends a mode: g of an interface, or the [`Condition`] of a proof ([`Guards`]) |
-//! | transition | crossing an interface, at (t̂*, x̂*) |
+//! | transition | crossing an interface, at (t̂*, x̂*), or an event there |
 //! | method | what moves the state through one mode ([`Method`]) |
 //! | metadata | the names in a system, and where its regions lie ([`Metadata`]) |
 //! | driver | what goes from mode to mode ([`Integrator`], [`Stepper`]) |
 //! | level | ψ_ref, the values of ψ at the entry into a mode |
 //!
 //! A transition is what other libraries call an event.
+//!
+//! # Where a solution meets interfaces
+//!
+//! One rule for each case, the same for every method.
+//!
+//! | case | what happens |
+//! |---|---|
+//! | one interface, crossed | a transition at (t̂*, x̂*), once; x̂* belongs to the region entered, whatever rounding did |
+//! | several interfaces at once | the region is entered whose own field leads into it at each of them; the order of declaration means nothing |
+//! | a crossing at the end of a step, at an output time or at the end time | steps are half-open, (t_k, t_{k+1}]: it is a transition there, once |
+//! | two crossings in a step | both are found, or the run ends as [`ErrorKind::Undecided`] |
+//! | a touch | none, counted by [`Statistics::grazes`] |
+//! | a start on an interface | the region that its fields lead into; ambiguous where several do ([`ErrorKind::Ambiguous`]), until [one is named](InitialValueProblem::region) |
+//! | the fields of both sides point at the interface | [`ErrorKind::Sliding`] with both rates; of several interfaces at once [`ErrorKind::Intersection`] |
+//! | a field is tangential to the interface | [`ErrorKind::Tangential`] |
+//! | an event | states and discrete states change, the mode behind it is decided as at a start, and it does not happen again at the point it has led to |
+//! | events at once | all see the values before; what contradicts itself is [`ErrorKind::Conflict`] |
+//! | an event at a time | met exactly, in pairs of doubles |
+//! | transitions that accumulate | [`ErrorKind::Zeno`], with the solution up to there |
+//! | backwards in time | [`Reversed`]; a system with events is refused |
 //!
 //! # The methods
 //!

@@ -129,10 +129,25 @@ pub struct Interface {
     pub attributes: Vec<Attribute>,
     /// Its identifier in the declaration.
     pub ident: Ident,
+    /// The formula that it is, of an interface that a formula switches at.
+    pub label: Option<String>,
+    /// The variable that is 1 where g > 0 and 0 where g < 0.
+    pub side: Name,
+    /// Whether formulas switch at it.
+    pub is_switch: bool,
     /// g
     pub switching_function: Id,
     /// Where g stands in the declaration.
     pub span: Extent,
+}
+
+impl Interface {
+    /// What it is called.
+    pub fn name(&self) -> String {
+        self.label
+            .clone()
+            .unwrap_or_else(|| plain_text(&self.ident))
+    }
 }
 
 /// A region: a sign pattern of the switching functions, with its vector field.
@@ -238,11 +253,25 @@ impl Model {
         self.states.iter().map(|state| state.name.clone()).collect()
     }
 
-    /// The interfaces whose side is part of a mode whether they bound its region or not: those with
-    /// events.
+    /// The variable of the side of an interface.
+    pub(crate) fn side_of(ident: &Ident) -> Name {
+        // no identifier of a declaration has a space
+        Name::new(&format!("side of {ident}"))
+    }
+
+    /// The interfaces whose side is part of a mode whether they bound its region or not: those that
+    /// formulas switch at, and those with events.
     pub fn free_interfaces(&self) -> Vec<usize> {
-        let has_event = |&index: &usize| self.events.iter().any(|event| event.interface == index);
-        (0..self.interfaces.len()).filter(has_event).collect()
+        let has_event = |index: usize| self.events.iter().any(|event| event.interface == index);
+        let interfaces = self.interfaces.iter().enumerate();
+        let free = interfaces.filter(|(index, one)| one.is_switch || has_event(*index));
+        free.map(|(index, _)| index).collect()
+    }
+
+    /// The variables of the sides of what formulas switch at.
+    pub fn switches(&self) -> impl Iterator<Item = &Name> {
+        let switches = self.interfaces.iter().filter(|one| one.is_switch);
+        switches.map(|one| &one.side)
     }
 
     /// The variables that are constant in a mode, besides the parameters: the discrete states, then
@@ -251,8 +280,7 @@ impl Model {
     pub fn constants(&self) -> Vec<Name> {
         let discrete = self.discrete.iter().map(|one| one.name.clone());
         let free = self.free_interfaces().into_iter();
-        // no identifier of a declaration has a space
-        let sides = free.map(|index| Name::new(&format!("side {index}")));
+        let sides = free.filter_map(|index| Some(self.interfaces.get(index)?.side.clone()));
         discrete.chain(sides).collect()
     }
 

@@ -15,9 +15,11 @@ pub struct Metadata {
     pub interfaces: &'static [&'static str],
     /// The names of the discrete states.
     pub discrete: &'static [&'static str],
-    /// The interfaces whose side is part of a mode whether they bound its region or not: those of
-    /// events.
+    /// The interfaces whose side is part of a mode whether they bound its region or not: those that
+    /// formulas switch at, and those of events.
     pub free: &'static [usize],
+    /// Those of them that formulas switch at.
+    pub switches: &'static [usize],
     /// What happens in an instant.
     pub events: &'static [Event],
     /// The conditions under which quantities were proved to be conserved, as far as a run has to

@@ -106,10 +106,34 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
                     _ => Side::Negative,
                 };
             }
-            let region = self.system.region_on(&sides, Some(self.like));
+            let region = self.settled(sides.clone());
             regions.extend(region.filter(|region| !regions.contains(region)));
         }
         regions
+    }
+
+    /// The region on these sides; where switching functions depend on the sides of others, the
+    /// sides of those that the point is not on are the ones that they have there.
+    fn settled(&self, mut sides: Vec<Side>) -> Option<Sys::Region> {
+        let mut region = self.system.region_on(&sides, Some(self.like))?;
+        let metadata = self.system.metadata();
+        for _ in 0..metadata.switches.len() {
+            let mut is_settled = true;
+            for (interface, side) in sides.iter_mut().enumerate() {
+                if self.on.contains(&interface) {
+                    continue;
+                }
+                let reading = Reading::new(self.system, region, interface, self.t, self.x);
+                let found = Side::of(reading.value);
+                is_settled &= found == *side;
+                *side = found;
+            }
+            if is_settled {
+                break;
+            }
+            region = self.system.region_on(&sides, Some(self.like))?;
+        }
+        Some(region)
     }
 
     /// Whether the field of a region leads into it.

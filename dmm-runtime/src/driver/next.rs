@@ -49,7 +49,8 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     check_conditions(system, to, t, &after)?;
     let is_silent = happened.is_none()
         && Sys::index(from) == Sys::index(to)
-        && metadata.free.contains(&interface);
+        && metadata.free.contains(&interface)
+        && !metadata.switches.contains(&interface);
     let transition = Transition {
         t,
         time,

@@ -23,6 +23,7 @@ pub(super) fn kept(names: &program::Metadata) -> &'static Metadata {
         interfaces: texts(&names.interfaces),
         discrete: texts(&names.discrete),
         free: leaked(names.free.iter().copied()),
+        switches: leaked(names.switches.iter().copied()),
         events: leaked(names.events.iter().map(event)),
         conditions: leaked(names.conditions.iter().map(condition)),
         regions: leaked(names.regions.iter().map(region)),
@@ -40,6 +41,7 @@ fn are_same(known: &Metadata, names: &program::Metadata) -> bool {
         && known.interfaces == names.interfaces
         && known.discrete == names.discrete
         && known.free == names.free
+        && known.switches == names.switches
         && known
             .events
             .iter()

@@ -146,41 +146,30 @@ fn derivative_of<'a>(name: &str, declared: &[&'a str]) -> Option<&'a str> {
     declared.iter().find(|function| **function == of).copied()
 }
 
-/// What is said of functions that are made of several smooth ones: where they switch, and to what.
+/// What is said of functions that are made of several smooth ones under another name.
 fn switches(name: &str, arguments: &[Expression]) -> Option<Problem> {
-    let text = |argument: Option<&Expression>, otherwise: &str| {
-        argument.map_or_else(|| otherwise.to_owned(), ToString::to_string)
-    };
-    let (u, v) = (text(arguments.first(), "u"), text(arguments.get(1), "v"));
-    // where it switches, its value where that is positive, and where it is negative
-    let parts = match name {
-        "abs" | "fabs" => Some((u.clone(), u.clone(), format!("-{}", factor(&u)))),
-        "sign" | "sgn" | "signum" => Some((u, "1".into(), "-1".into())),
-        "step" | "heaviside" | "Heaviside" => Some((u, "1".into(), "0".into())),
-        "relu" | "ramp" => Some((u.clone(), u, "0".into())),
-        "max" | "fmax" if arguments.len() == 2 => Some((difference(&u, &v), u, v)),
-        "min" | "fmin" if arguments.len() == 2 => Some((difference(&u, &v), v, u)),
-        "max" | "min" | "floor" | "ceil" | "round" | "trunc" | "clamp" | "sat" | "saturate"
-        | "mod" | "fmod" | "rem" | "frac" | "ifelse" | "piecewise" | "select" | "cond" => None,
+    let u = arguments
+        .first()
+        .map_or_else(|| "u".to_owned(), ToString::to_string);
+    let instead = match name {
+        "fabs" => format!("abs({u})"),
+        "sgn" | "signum" => format!("sign({u})"),
+        "step" | "heaviside" | "Heaviside" => format!("if {u} > 0 {{ 1 }} else {{ 0 }}"),
+        "relu" | "ramp" => format!("max({u}, 0)"),
+        "fmax" => "max(u, v)".to_owned(),
+        "fmin" => "min(u, v)".to_owned(),
+        "sat" | "saturate" => format!("clamp({u}, -1, 1)"),
+        "ifelse" | "piecewise" | "select" | "cond" => "if a > b { u } else { v }".to_owned(),
+        "floor" | "ceil" | "round" | "trunc" | "mod" | "fmod" | "rem" | "frac" => {
+            let message = format!(
+                "`{name}` jumps without end: count with `discrete n = 0;` and an event at each jump, `on name rising {{ n = n + 1; }}`"
+            );
+            return Some((codes::NOT_SMOOTH, message));
+        }
         _ => return None,
     };
-    let message = match parts {
-        Some((g, above, below)) => format!(
-            "`{name}` is not smooth: declare `interface name = {g};` and a `region` on each side, with `{above}` where it is positive and `{below}` where it is negative"
-        ),
-        None => format!(
-            "`{name}` is not smooth: declare an `interface` where it switches and a `region` on each side"
-        ),
-    };
-    Some((codes::NOT_SMOOTH, message))
-}
-
-/// u − v as one would write it.
-fn difference(u: &str, v: &str) -> String {
-    match (u, v) {
-        (u, "0") => u.to_owned(),
-        ("0", v) => format!("-{}", factor(v)),
-        (u, v) if v.contains(" + ") || v.contains(" - ") => format!("{u} - ({v})"),
-        (u, v) => format!("{u} - {v}"),
-    }
+    Some((
+        codes::UNKNOWN_FUNCTION,
+        format!("there is no function `{name}`: write `{instead}`"),
+    ))
 }

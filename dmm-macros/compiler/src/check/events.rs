@@ -188,7 +188,10 @@ impl<'d> Resolver<'d> {
         let switching_function = dag.sub(t, time);
         self.regions.interfaces.push(Some(Interface {
             attributes: Vec::new(),
+            label: None,
+            side: Model::side_of(&ident),
             ident,
+            is_switch: false,
             switching_function,
             span,
         }));

@@ -62,6 +62,11 @@ impl<'d> Resolver<'d> {
             ExpressionKind::Element { group, index } => {
                 self.element(formula, group, index, allowed)
             }
+            ExpressionKind::If {
+                condition,
+                then,
+                otherwise,
+            } => self.branch(formula, condition, [then, otherwise], allowed),
             ExpressionKind::Sum {
                 variable,
                 range,

@@ -66,6 +66,9 @@ impl<'d> Resolver<'d> {
         allowed: Allowed,
     ) -> Option<Value> {
         let text = function.to_string();
+        if let Some(value) = self.switching_function(formula, &text, arguments, allowed) {
+            return value;
+        }
         let built_in = text.parse::<Function>().ok().filter(|f| f.is_declarable());
         let is_known = built_in.is_some() || self.scope.names.get(&text).is_some();
         let read = |resolver: &mut Self| -> Vec<Option<Value>> {

@@ -34,6 +34,7 @@ mod report;
 mod samples;
 mod scope;
 mod sides;
+mod switches;
 mod targets;
 
 #[cfg(test)]
@@ -191,6 +192,9 @@ impl<'d> Resolver<'d> {
         Some(Interface {
             attributes: interface.attributes.clone(),
             ident: interface.ident.clone(),
+            label: None,
+            side: Model::side_of(&interface.ident),
+            is_switch: false,
             switching_function: g,
             span: interface.formula.extent,
         })

@@ -76,6 +76,7 @@ impl<'d> Resolver<'d> {
                 is_used = true;
                 side.interface = number;
             }
+            is_used |= interface.as_ref().is_some_and(|one| one.is_switch);
             let events = self.regions.events.iter_mut();
             for event in events.filter(|event| event.interface == index) {
                 is_used = true;

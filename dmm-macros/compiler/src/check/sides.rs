@@ -111,7 +111,8 @@ impl Resolver<'_> {
             interfaces
                 .iter()
                 .for_each(|interface| self.no_region(interface));
-            if self.regions.events.is_empty() {
+            let mut known = self.regions.interfaces.iter().flatten();
+            if self.regions.events.is_empty() && !known.any(|one| one.is_switch) {
                 // nothing switches there: the system is that without the interfaces
                 self.regions.interfaces.clear();
             }
@@ -147,7 +148,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether an event happens at an interface.
+    /// Whether an event happens at an interface, or a formula switches there.
     fn has_event(&self, ident: &Ident) -> bool {
         let interfaces = self.regions.interfaces.iter().enumerate();
         let mut named = interfaces.filter(|(_, interface)| match interface {
@@ -155,7 +156,10 @@ impl Resolver<'_> {
             None => false,
         });
         let events = &self.regions.events;
-        named.any(|(index, _)| events.iter().any(|event| event.interface == index))
+        named.any(|(index, interface)| {
+            let is_switch = interface.as_ref().is_some_and(|one| one.is_switch);
+            is_switch || events.iter().any(|event| event.interface == index)
+        })
     }
 
     /// Warns of an interface that bounds no region.

@@ -1,7 +1,7 @@
 //! What a machine is told of a system besides its functions: names, and where the regions lie.
 
 use crate::algebra::Id;
-use crate::model::{self, Model, Region, Sign, plain_text};
+use crate::model::{self, Interface, Model, Region, Sign, plain_text};
 use crate::scheme::Scheme;
 
 /// The names in a system, and where its regions lie.
@@ -19,6 +19,8 @@ pub struct Metadata {
     pub discrete: Vec<String>,
     /// The interfaces whose side is part of a mode whether they bound its region or not.
     pub free: Vec<usize>,
+    /// Those of them that formulas switch at.
+    pub switches: Vec<usize>,
     /// What happens in an instant.
     pub events: Vec<Event>,
     /// The conditions of proofs that a run has to check.
@@ -86,13 +88,14 @@ impl Metadata {
             parameters: (model.parameters.iter())
                 .map(|one| text(&one.name))
                 .collect(),
-            interfaces: (model.interfaces.iter())
-                .map(|one| plain_text(&one.ident))
-                .collect(),
+            interfaces: model.interfaces.iter().map(Interface::name).collect(),
             discrete: (model.discrete.iter())
                 .map(|one| plain_text(&one.ident))
                 .collect(),
             free: model.free_interfaces(),
+            switches: (model.free_interfaces().into_iter())
+                .filter(|&index| model.interfaces[index].is_switch)
+                .collect(),
             events: model
                 .events
                 .iter()

@@ -1,6 +1,6 @@
 //! Conservation: ∂ₜψ + ∇ψ·f = 0 for one ψ of a region.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use super::conditions::domain;
 use super::message::QuantityProblem;
@@ -32,7 +32,7 @@ pub(super) fn examine(
         return Ok(Conservation::ByConstruction);
     }
     let residual = quantity.derivatives.rate(dag, &region.field);
-    let (verdict, formulas) = decide_in(dag, variables, place, residual, formulas);
+    let (verdict, formulas) = decide_by_sides(dag, variables, place, residual, formulas);
     let roots: Vec<Id> = formulas.iter().copied().chain([residual]).collect();
     match verdict {
         Verdict::Proved => {
@@ -67,6 +67,45 @@ fn conditions(dag: &mut Dag, place: &Place<'_>, roots: &[Id]) -> Result<(), Quan
         }
         None => Ok(()),
     }
+}
+
+/// So many switches are looked at side by side.
+const MOST_SWITCHES: usize = 8;
+
+/// Whether `residual` is zero on all sides of the switches that it depends on; see [`decide_in`].
+fn decide_by_sides(
+    dag: &mut Dag,
+    variables: &Variables,
+    place: &Place<'_>,
+    residual: Id,
+    formulas: Vec<Id>,
+) -> (Verdict, Vec<Id>) {
+    let roots = formulas.iter().copied().chain([residual]);
+    let depends_on = dag.variables(roots);
+    let switches = variables.switches.iter();
+    let switches: Vec<&Name> = switches.filter(|one| depends_on.contains(one)).collect();
+    if switches.is_empty() || switches.len() > MOST_SWITCHES {
+        return decide_in(dag, variables, place, residual, formulas);
+    }
+    let mut all = Vec::new();
+    for choice in 0..1_i64 << switches.len() {
+        let side = |(number, name): (usize, &&Name)| {
+            let value = dag.integer(choice >> number & 1);
+            ((*name).clone(), value)
+        };
+        let sides: HashMap<Name, Id> = switches.iter().enumerate().map(side).collect();
+        let residual = dag.substitute(residual, &sides);
+        let formulas = formulas.iter();
+        let formulas = formulas.map(|&formula| dag.substitute(formula, &sides));
+        let formulas = formulas.collect();
+        let (verdict, formulas) = decide_in(dag, variables, place, residual, formulas);
+        if verdict != Verdict::Proved {
+            return (verdict, formulas);
+        }
+        all.extend(formulas);
+    }
+    all.retain(|&root| dag.as_constant(root).is_none());
+    (Verdict::Proved, all)
 }
 
 /// Whether `residual` is zero, with the formulas on whose domain: those that are given if they

@@ -48,7 +48,7 @@ pub use proved::{
 /// no proved model.
 pub fn prove(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Proved> {
     let before = diagnostics.len();
-    let variables = Variables::of(&model);
+    let variables = Variables::of(&mut model);
     let Model {
         dag,
         interfaces,
@@ -157,17 +157,23 @@ struct Variables {
     states: Vec<Name>,
     /// With their defaults.
     parameters: Vec<(Name, Id)>,
+    /// Those of the parameters that are 1 or 0: the sides of what formulas switch at.
+    switches: Vec<Name>,
     all: Vec<Name>,
 }
 
 impl Variables {
-    fn of(model: &Model) -> Self {
+    fn of(model: &mut Model) -> Self {
         let states = model.state_names();
         let parameters = model.parameters.iter();
         let parameters = parameters.map(|one| (one.name.clone(), one.default));
         let discrete = model.discrete.iter();
         let discrete = discrete.map(|one| (one.name.clone(), one.initial));
-        let parameters: Vec<(Name, Id)> = parameters.chain(discrete).collect();
+        let one = model.dag.integer(1);
+        let switches: Vec<(Name, Id)> = model.switches().map(|name| (name.clone(), one)).collect();
+        let parameters = parameters.chain(discrete).chain(switches.iter().cloned());
+        let parameters: Vec<(Name, Id)> = parameters.collect();
+        let switches = switches.into_iter().map(|(name, _)| name).collect();
         let all = states
             .iter()
             .cloned()
@@ -177,6 +183,7 @@ impl Variables {
         Self {
             states,
             parameters,
+            switches,
             all,
         }
     }

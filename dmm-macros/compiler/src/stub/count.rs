@@ -50,6 +50,7 @@ impl Constants {
             } => operation(*operator, self.value(left)?, self.value(right)?),
             ExpressionKind::Call { .. }
             | ExpressionKind::Element { .. }
+            | ExpressionKind::If { .. }
             | ExpressionKind::Sum { .. } => None,
         }
     }

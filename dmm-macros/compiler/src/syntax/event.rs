@@ -9,7 +9,7 @@ use super::definition::{after_formula, equals};
 use super::target::target;
 use super::{Assignment, Comparison, Direction, EventItem, Relation, Trigger};
 use super::{formula, name};
-use crate::diagnostics::catalogue::syntax::EVENT;
+use crate::diagnostics::catalogue::syntax::{EVENT, SEMICOLON};
 use crate::diagnostics::{Diagnostics, Extent};
 
 /// What follows `on`, `every` or `at`.
@@ -150,7 +150,11 @@ fn statement(input: ParseStream<'_>, event: &mut EventItem) -> syn::Result<()> {
                 input.parse::<Token![,]>()?;
                 continue;
             }
-            input.parse::<Token![;]>()?;
+            if !input.peek(Token![;]) {
+                let message = "expected `,` and another quantity, or `;`";
+                return Err(SEMICOLON.error(input.span(), message));
+            }
+            name::skip_one(input);
             return Ok(());
         }
     }

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::Range;
+use super::{Comparison, Range};
 use crate::algebra::Rational;
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::syntax::DEPTH;
@@ -55,6 +55,15 @@ pub enum ExpressionKind {
         range: Box<Range>,
         /// The term.
         term: Box<Expression>,
+    },
+    /// `if a > b { then } else { otherwise }`
+    If {
+        /// What decides.
+        condition: Box<Comparison>,
+        /// The value where it holds.
+        then: Box<Expression>,
+        /// The value where it does not.
+        otherwise: Box<Expression>,
     },
     /// −operand
     Negative(Box<Expression>),
@@ -116,6 +125,14 @@ impl Expression {
                 term.height.max(range.start.height).max(range.end.height)
             }
             ExpressionKind::Binary { left, right, .. } => left.height.max(right.height),
+            ExpressionKind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                let parts = [&condition.left, &condition.right, then, otherwise];
+                parts.map(|part| part.height).into_iter().max().unwrap_or(0)
+            }
         };
         if below >= TALLEST {
             let message = "this formula is too long; name parts of it with `let`";

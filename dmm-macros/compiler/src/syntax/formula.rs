@@ -1,13 +1,13 @@
 //! Tokens → formula: precedence climbing over `+ - * / % ^`, unary minus, calls, elements, sums
 //! and parentheses; and ranges, which sums and loops go through.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 use syn::parse::ParseStream;
-use syn::{Lit, Token, parenthesized, token};
+use syn::{Lit, Token, braced, parenthesized, token};
 
 use super::expression::{Expression, ExpressionKind, Operator};
 use super::mistake::{self, SUM_FORM};
-use super::{Range, instead, name, number};
+use super::{Range, event, instead, name, number};
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::syntax::{BRANCH, DEPTH, INDEX, PATH, RANGE, SUM};
 
@@ -146,7 +146,10 @@ fn literal(input: ParseStream<'_>) -> syn::Result<Expression> {
 /// What begins with the word `ident`.
 fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Expression> {
     let text = ident.to_string();
-    if text == "if" || text == "match" || text == "where" && input.peek2(token::Paren) {
+    if text == "if" {
+        return branch(input, ident, nesting);
+    }
+    if text == "match" || text == "where" && input.peek2(token::Paren) {
         return Err(BRANCH.error(ident, instead::NO_BRANCH));
     }
     if text != "der" && name::begins_item(input) {
@@ -178,6 +181,53 @@ fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Ex
         return call(input, ident, nesting);
     }
     Expression::new(ExpressionKind::Name(ident.clone()), ident.into())
+}
+
+/// `if a > b { then } else { otherwise }`
+fn branch(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Expression> {
+    const FORM: &str = "a formula switches as in `if v > 0 { 1 } else { -1 }`";
+    let nesting = deeper(input, nesting)?;
+    name::word(input)?;
+    let condition = event::comparison(input)?;
+    if name::peek_is(input, "and") || input.peek(Token![&&]) || input.peek(Token![||]) {
+        let message = "one comparison decides: put a branch into another one";
+        return Err(BRANCH.error(input.span(), message));
+    }
+    let block = |input: ParseStream<'_>| -> syn::Result<(Expression, Span)> {
+        if !input.peek(token::Brace) {
+            return Err(BRANCH.error(input.span(), FORM));
+        }
+        let content;
+        let braces = braced!(content in input);
+        let value = terms(&content, nesting)?;
+        if !content.is_empty() {
+            return Err(mistake::unexpected(&content, &value));
+        }
+        Ok((value, braces.span.close()))
+    };
+    let (then, end) = block(input)?;
+    if !name::peek_is(input, "else") {
+        let message = format!("{FORM}: it has a value on both sides");
+        return Err(BRANCH.error(Extent::from(ident).to(end), message));
+    }
+    name::word(input)?;
+    let (otherwise, end) = match name::peek_word(input) {
+        Some(next) if next == "if" => {
+            let other = branch(input, &next, nesting)?;
+            let end = other.extent;
+            (other, end)
+        }
+        _ => {
+            let (value, end) = block(input)?;
+            (value, end.into())
+        }
+    };
+    let kind = ExpressionKind::If {
+        condition: Box::new(condition),
+        then: Box::new(then),
+        otherwise: Box::new(otherwise),
+    };
+    Expression::new(kind, Extent::from(ident).to(end))
 }
 
 fn call(input: ParseStream<'_>, function: &Ident, nesting: usize) -> syn::Result<Expression> {

@@ -298,8 +298,7 @@ pub(super) fn of_branch(word: &str) -> Option<(Code, &'static str)> {
 }
 
 /// What is said of branches in formulas.
-pub(super) const NO_BRANCH: &str =
-    "formulas have no branches: declare an `interface` and a `region` on each side of it";
+pub(super) const NO_BRANCH: &str = "a formula switches by `if a > b { u } else { v }`, or by `abs`, `sign`, `min`, `max` and `clamp`";
 
 #[cfg(test)]
 mod tests {

@@ -58,12 +58,14 @@ fn about_method(method: &str, base: &str, receiver: &str) -> (Code, String) {
     match method {
         "powi" | "powf" | "pow" => (POWER, format!("power is written `^`, as in `{base}^2`")),
         "recip" => (METHOD, format!("write `1/{base}`")),
-        "abs" | "signum" | "min" | "max" | "clamp" => {
+        "abs" | "min" | "max" | "clamp" => {
+            let more = if method == "abs" { "" } else { ", …" };
             let message = format!(
-                "`{method}` is not smooth: declare an `interface` where it switches and a `region` on each side"
+                "a function stands in front of its arguments: write `{method}({receiver}{more})`"
             );
-            (BRANCH, message)
+            (METHOD, message)
         }
+        "signum" => (METHOD, format!("write `sign({receiver})`")),
         "atan2" => {
             let message = format!(
                 "`{method}` jumps: write `2*atan(y/(x + sqrt(x^2 + y^2)))`, which is the angle of (x, y) where it does not jump"
@@ -177,10 +179,7 @@ pub(super) fn no_operand(input: ParseStream<'_>) -> syn::Error {
             "a formula is made of real numbers: write one instead of this",
         )
     } else if input.peek(Token![|]) || input.peek(Token![||]) {
-        (
-            BRANCH,
-            "the absolute value is not smooth: declare an `interface` where it switches and a `region` on each side",
-        )
+        (BRANCH, "the absolute value is written `abs(u)`")
     } else if input.peek(Token![=]) {
         (EQUALS, "a definition has one `=`")
     } else {

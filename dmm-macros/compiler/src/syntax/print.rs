@@ -40,6 +40,17 @@ impl Display for Expression {
             },
             ExpressionKind::Parenthesised(inner) => write!(f, "({inner})"),
             ExpressionKind::Element { group, index } => write!(f, "{group}[{index}]"),
+            ExpressionKind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                write!(f, "if {condition} {{ {then} }} else ")?;
+                match otherwise.kind {
+                    ExpressionKind::If { .. } => write!(f, "{otherwise}"),
+                    _ => write!(f, "{{ {otherwise} }}"),
+                }
+            }
             ExpressionKind::Sum {
                 variable,
                 range,
@@ -95,6 +106,12 @@ impl Display for Defaults {
 impl Display for Condition {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} {} 0", self.interface, self.relation.symbol())
+    }
+}
+
+impl Display for Comparison {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {} {}", self.left, self.relation.symbol(), self.right)
     }
 }
 
@@ -204,12 +221,7 @@ fn print_event(f: &mut Formatter<'_>, event: &EventItem, indent: &str) -> fmt::R
     write!(f, "{indent}{}", event.trigger)?;
     for (index, condition) in event.conditions.iter().enumerate() {
         let word = if index == 0 { "where" } else { "and" };
-        let Comparison {
-            left,
-            right,
-            relation,
-        } = condition;
-        write!(f, " {word} {left} {} {right}", relation.symbol())?;
+        write!(f, " {word} {condition}")?;
     }
     f.write_str(" {\n")?;
     for Assignment { target, formula } in &event.assignments {

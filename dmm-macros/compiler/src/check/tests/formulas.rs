@@ -26,9 +26,8 @@ fn every_function_is_there() {
 fn functions_are_known_and_called_with_one_argument() {
     for (formula, message) in [
         ("log(x)", "the natural logarithm is `ln(x)`"),
-        ("abs(x)", "`abs` is not smooth"),
-        ("max(x, 0)", "`max` is not smooth"),
-        ("sign(x)", "`sign` is not smooth"),
+        ("fabs(x)", "write `abs(x)`"),
+        ("relu(x)", "write `max(x, 0)`"),
         ("pow(x, 2)", "power is written `^`"),
         ("sine(x)", "did you mean `sin`?"),
         ("sqr(x)", "power is written `^`"),

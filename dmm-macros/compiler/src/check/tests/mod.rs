@@ -10,6 +10,7 @@ mod loops;
 mod regions;
 mod shared;
 mod size;
+mod switches;
 
 use proc_macro2::TokenStream;
 

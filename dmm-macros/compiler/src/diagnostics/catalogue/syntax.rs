@@ -76,9 +76,9 @@ super::codes! {
     METHOD = 124, "a method or a field stands in a formula",
         "Formulas are mathematics: quantities have neither methods nor fields.",
         "Write `sqrt(x)` for `x.sqrt()`, `k` for `self.k` and `q[0]` for `q.0`.";
-    BRANCH = 125, "a formula has a branch or a comparison",
-        "A formula is smooth. Where a vector field switches, the integrator has to locate the crossing, so the switch is declared.",
-        "Declare an `interface` where it switches and a `region` on each side.";
+    BRANCH = 125, "a branch or a comparison is not written as one",
+        "Where a formula switches, the integrator locates the crossing: one comparison decides, and there is a value on both sides.",
+        "Write `if a > b { u } else { v }`, or declare an `interface` and a `region` on each side.";
     PATH = 126, "a formula has a path",
         "Formulas know the names of the declaration and nothing of Rust's modules.",
         "Write `pi` for `std::f64::consts::PI` and `sqrt(x)` for `f64::sqrt(x)`; declare other constants with `const` or `param`.";

@@ -266,6 +266,7 @@ fn metadata(metadata: &Metadata) -> TokenStream {
         interfaces,
         discrete,
         free,
+        switches,
         events,
         conditions,
         regions,
@@ -277,6 +278,7 @@ fn metadata(metadata: &Metadata) -> TokenStream {
         None => quote!(::core::option::Option::None),
     };
     let free = free.iter().copied().map(paths::count);
+    let switches = switches.iter().copied().map(paths::count);
     let events = events.iter().map(|one| {
         let (rises, falls) = (one.rises, one.falls);
         let interface = paths::count(one.interface);
@@ -321,6 +323,7 @@ fn metadata(metadata: &Metadata) -> TokenStream {
             interfaces: &[#(#interfaces),*],
             discrete: &[#(#discrete),*],
             free: &[#(#free),*],
+            switches: &[#(#switches),*],
             events: &[#(#events),*],
             conditions: &[#(#conditions),*],
             regions: &[#(#regions),*],

@@ -33,7 +33,10 @@ fn one_precise_message_for_a_wrong_event() {
             "expected the name of an interface",
         ),
         ("every { v = 0; }", "a formula has no block"),
-        ("on floor falling { conserves 2; }", "expected a name"),
+        (
+            "on floor falling { conserves 2; }",
+            "a name does not begin with a digit",
+        ),
     ] {
         let messages = item_messages(event);
         assert_eq!(messages.len(), 1, "{event}: {messages:?}");

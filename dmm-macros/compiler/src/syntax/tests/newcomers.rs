@@ -224,7 +224,7 @@ const FORMULAS: &[&str] = &[
     "$x",
     "@x",
     "x; y",
-    "if x > 0 { 1 } else { 2 }",
+    "if x > 0 { 1 }",
     "x if y else z",
     "lambda x: x",
     "x -> y",

@@ -24,6 +24,18 @@ fn structure(formula: &str) -> String {
             } => format!("[{}{}{}]", show(left), operator.symbol(), show(right)),
             Kind::Parenthesised(inner) => show(inner),
             Kind::Element { group, index } => format!("{group}<{}>", show(index)),
+            Kind::If {
+                condition,
+                then,
+                otherwise,
+            } => format!(
+                "if<{}{}{},{},{}>",
+                show(&condition.left),
+                condition.relation.symbol(),
+                show(&condition.right),
+                show(then),
+                show(otherwise)
+            ),
             Kind::Sum {
                 variable,
                 range,

@@ -38,6 +38,7 @@ pub(crate) system Chain {
     der(x) = -y^-2;
     region above where wall > 0 {
         let a = -(x + 1)^2^3;
+        let b = 2 * if x > k { y } else if t < 3 { -abs(x) } else { max(x, y) } + 1;
         for i in 0..n {
             der(q[i]) = p[i];
             for j in i..i + 1 {
