@@ -99,8 +99,8 @@ fn eleven_switches_are_one_field() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(grains.metadata().interfaces.len(), 11);
     assert_eq!(grains.metadata().interfaces[0], "q[0] - q[1]");
     let mut x0 = [0.0; 24];
-    for i in 0..12 {
-        x0[i] = 0.3 * i as f64;
+    for (i, q) in x0[..12].iter_mut().enumerate() {
+        *q = 0.3 * i as f64;
     }
     // the first grain is thrown at the others
     x0[12] = 1.0;
