@@ -279,6 +279,15 @@ impl ErrorKind {
 }
 
 impl Error {
+    /// The same of the first states alone: there may have been room for more.
+    #[cold]
+    pub(crate) fn with_states(mut self, states: usize) -> Self {
+        if let Some(place) = &mut self.place {
+            place.x.truncate(states);
+        }
+        self
+    }
+
     /// The same in a region.
     #[cold]
     pub(crate) fn in_region(mut self, region: &'static str) -> Self {

@@ -40,9 +40,27 @@ pub enum TruthError {
     /// Bad reference data.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
+    /// The accurate integrator knows one interface.
+    #[error(
+        "the solution that is compared with crosses one interface between two regions: a system \
+         with several interfaces, switches or events has none; `pws run` integrates it"
+    )]
+    Unknown,
     /// The accurate integrator cannot go on.
     #[error(transparent)]
     Stuck(#[from] Stuck),
+}
+
+/// Whether there is anything to compare with, beside reference data.
+///
+/// # Errors
+/// [`TruthError::Unknown`] of a system with more than one interface, or with events.
+pub fn is_known(problem: &Problem) -> Result<(), TruthError> {
+    let metadata = problem.metadata();
+    if metadata.interfaces.len() > 1 || metadata.has_constants() {
+        return Err(TruthError::Unknown);
+    }
+    Ok(())
 }
 
 impl Truth {
@@ -64,6 +82,7 @@ impl Truth {
         {
             return Ok(Self::from_reference(problem, initial, &reference, count));
         }
+        is_known(problem)?;
         Ok(Self {
             nodes: accurate::crossings(problem, initial, t_end, count)?,
             origin: Origin::Accurate,

@@ -17,7 +17,7 @@ use crate::accurate;
 use crate::method::{Control, MethodName};
 use crate::problem::{Finish, Problem, Run};
 use crate::reference::Reference;
-use crate::truth::{Origin, TruthError};
+use crate::truth::{Origin, TruthError, is_known};
 
 /// Without a sample of the reference at it, the time of comparison: before chaos has enlarged
 /// the errors of the exact solution's integrator.
@@ -106,6 +106,7 @@ impl Goal {
         if !(t.is_finite() && t > 0.0) {
             return Err(GoalError::Time(t));
         }
+        is_known(problem)?;
         let nodes = accurate::crossings(problem, problem.description().initial, t, usize::MAX)
             .map_err(TruthError::from)?;
         let last = nodes

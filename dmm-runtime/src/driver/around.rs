@@ -4,8 +4,9 @@
 //! Away from the interfaces the signs of the switching functions tell the region. On some of them
 //! every choice of sides is a region that meets the point, and the solution goes on in the one whose
 //! field enters it at each of these interfaces: dg/dt > 0 where it lies on the side g > 0, dg/dt < 0
-//! where it lies on the side g < 0. None is sliding or rest, several are several solutions. Nothing
-//! depends on the order in which interfaces and regions are declared.
+//! where it lies on the side g < 0. None is sliding or rest, several are several solutions, and where
+//! one of them neither enters nor leaves (dg/dt = 0) it is not determined. Nothing depends on the
+//! order in which interfaces and regions are declared.
 
 use super::next::stays;
 use super::reading::Reading;
@@ -75,6 +76,10 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         let regions = self.regions();
         let enters = |region: &Sys::Region| self.enters(*region);
         let entered: Vec<Sys::Region> = regions.iter().copied().filter(enters).collect();
+        // a field that is tangential to an interface may lead into its region as well
+        if regions.iter().any(|&region| self.is_tangential(region)) {
+            return Err(self.none(&regions));
+        }
         match (&entered[..], &regions[..]) {
             (&[region], _) => Ok((region, self.active(region))),
             ([], []) => Err(self.error(ErrorKind::NoRegion)),
@@ -142,6 +147,16 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
             let side = self.system.side(region, interface);
             side.is_none_or(|side| self.rate(region, interface) * side.sign() > 0.0)
         })
+    }
+
+    /// Whether the field of a region leads out of it at none of the interfaces, and is tangential to
+    /// one of them.
+    fn is_tangential(&self, region: Sys::Region) -> bool {
+        let rates = self.on.iter().filter_map(|&interface| {
+            let side = self.system.side(region, interface)?;
+            Some(self.rate(region, interface) * side.sign())
+        });
+        rates.fold(f64::INFINITY, f64::min) == 0.0
     }
 
     fn rate(&self, region: Sys::Region, interface: usize) -> f64 {

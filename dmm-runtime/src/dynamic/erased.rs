@@ -70,6 +70,11 @@ impl<Sys: System<N>, const N: usize> Erased<Sys, N> {
         .into())
     }
 
+    /// An error, of the states that there are.
+    fn error(&self, error: Error) -> Error {
+        error.with_states(self.states())
+    }
+
     /// The end of a run.
     fn finish(&self, end: &End<Sys::Region, N>) -> Finish {
         Finish {
@@ -107,8 +112,8 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Observed<'_, Sys, N> {
         };
         let start = erased.start(&from.initial)?;
         let problem = Integrator::new(&erased.system, method).initial(0.0, start);
-        let end = problem.observe_until(from.t_end, &mut forwarding)?;
-        Ok(erased.finish(&end))
+        let end = problem.observe_until(from.t_end, &mut forwarding);
+        Ok(erased.finish(&end.map_err(|halted| erased.error(halted.into()))?))
     }
 }
 
@@ -125,7 +130,8 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Silent<'_, Sys, N> {
         let Self { erased, from } = self;
         let start = erased.start(&from.initial)?;
         let problem = Integrator::new(&erased.system, method).initial(0.0, start);
-        Ok(erased.finish(&problem.observe_until(from.t_end, &mut ())?))
+        let end = problem.observe_until(from.t_end, &mut ());
+        Ok(erased.finish(&end.map_err(|halted| erased.error(halted.into()))?))
     }
 }
 
@@ -270,7 +276,7 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Together<'_, Sys, N> {
                 Ok(end) => (Some(end), None),
                 Err(halted) => {
                     let (error, end) = halted.into_parts();
-                    (end, Some(error))
+                    (end, Some(erased.error(error)))
                 }
             };
             (self.sink)(MemberOutcome {

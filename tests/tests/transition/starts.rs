@@ -74,7 +74,7 @@ fn bad_input_is_named() {
     assert!(run(1e-20, 1.0, 1.0, 2.0).contains("below the rounding error of the time"));
     assert!(run(0.1, f64::INFINITY, 1.0, 1.0).starts_with("initial time: inf"));
     assert!(run(0.1, 0.0, f64::NAN, 1.0).starts_with("initial state: x = NaN"));
-    assert!(run(0.1, 2.0, 1.0, 1.0).starts_with("end time: 1"));
+    assert!(run(0.1, 2.0, 1.0, 1.0).starts_with("the end time 1 is before the initial time 2"));
     let strange = Drift {
         up: f64::NAN,
         down: 1.0,

@@ -1,22 +1,10 @@
 //! Switches within formulas: `if`, `abs`, `sign`, `min`, `max` and `clamp`.
 
-use dmm_runtime::dynamic::{AnySystem, InitialValue, MethodChoice, MethodVisitor, Unobserved};
 use dmm_runtime::{
-    Best, Composed, Error, ErrorKind, Integrator, Method, Model, Solution, Symmetric, System,
-    Taylor, TransitionKind, pws,
+    Best, Composed, Error, ErrorKind, Integrator, Symmetric, System, Taylor, TransitionKind, pws,
 };
 
-fn run<Sys: System<N>, Met: Method, const N: usize>(
-    system: &Sys,
-    method: Met,
-    x0: [f64; N],
-    t_end: f64,
-) -> Result<Solution<Sys, Met, N>, Error> {
-    let run = Integrator::new(system, method)
-        .initial(0.0, x0)
-        .run_until(t_end);
-    run.map_err(|stopped| stopped.error().clone())
-}
+use super::{Failure, run, same_at_run_time, times};
 
 pws! {
     /// A force of constant size towards the origin.
@@ -75,10 +63,6 @@ fn a_switch_is_crossed_like_an_interface() -> Result<(), Error> {
     Ok(())
 }
 
-fn times<Sys: System<N>, Met: Method, const N: usize>(run: Solution<Sys, Met, N>) -> Vec<f64> {
-    run.transitions().iter().map(|one| one.t).collect()
-}
-
 pws! {
     /// Grains on a line that push and do not pull.
     pub system Grains {
@@ -93,7 +77,7 @@ pws! {
 }
 
 #[test]
-fn eleven_switches_are_one_field() -> Result<(), Box<dyn std::error::Error>> {
+fn eleven_switches_are_one_field() -> Result<(), Failure> {
     let grains = Grains::default();
     assert_eq!(grains.metadata().regions.len(), 1);
     assert_eq!(grains.metadata().interfaces.len(), 11);
@@ -229,39 +213,10 @@ fn a_block_that_sticks_slides_on_its_switch() {
     );
 }
 
-/// `Best`, by a tolerance.
-struct Tolerance(f64);
-
-impl MethodChoice for Tolerance {
-    fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
-        visitor.visit(Best::tolerance(self.0))
-    }
-}
-
 #[test]
-fn systems_compiled_at_run_time_switch_alike() -> Result<(), Box<dyn std::error::Error>> {
-    fn assert_same<Sys: System<N>, const N: usize>(
-        system: &Sys,
-        x0: [f64; N],
-        t_end: f64,
-    ) -> Result<(), Box<dyn std::error::Error>> {
-        let model = Model::compile(system.declaration())?;
-        let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
-        let from = InitialValue::new(x0.to_vec(), t_end);
-        let end = model.integrate(&Tolerance(1e-12), &from, &mut Unobserved)?;
-        let expected = Integrator::new(system, Best::tolerance(1e-12)).initial(0.0, x0);
-        let expected = expected.observe_until(t_end, &mut ())?;
-        let name = system.metadata().name;
-        assert_eq!(
-            end.statistics.transitions, expected.statistics.transitions,
-            "{name}"
-        );
-        for (one, other) in end.x.iter().zip(expected.point.x.iter()) {
-            assert!((one - other).abs() < 1e-11, "{name}: {one} {other}");
-        }
-        Ok(())
-    }
-    assert_same(&Constant {}, [0.5, 0.0], 50.0)?;
-    assert_same(&Saturated::default(), [0.1, 0.0], 20.0)?;
-    assert_same(&Fastest {}, [3.0], 2.0)
+fn systems_compiled_at_run_time_switch_alike() -> Result<(), Failure> {
+    same_at_run_time(&Constant {}, [0.5, 0.0], 50.0)?;
+    same_at_run_time(&Saturated::default(), [0.1, 0.0], 20.0)?;
+    same_at_run_time(&Fastest {}, [3.0], 2.0)?;
+    Ok(())
 }

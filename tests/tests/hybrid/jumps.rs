@@ -1,10 +1,11 @@
 //! Events: jumps of the state, discrete states, and what happens at given times.
 
-use dmm_runtime::dynamic::{AnySystem, InitialValue, MethodChoice, MethodVisitor, Unobserved};
 use dmm_runtime::{
-    Best, Composed, Error, ErrorKind, Integrator, Method, Mode, Model, Side, Solution, Symmetric,
-    System, Taylor, TransitionKind, pws,
+    Best, Composed, Error, ErrorKind, Integrator, Mode, Side, Symmetric, Taylor, TransitionKind,
+    pws,
 };
+
+use super::{Failure, run, same_at_run_time, times};
 
 pws! {
     /// A ball that loses speed where it bounces.
@@ -21,18 +22,6 @@ pws! {
             bounces = bounces + 1;
         }
     }
-}
-
-fn run<Sys: System<N>, Met: Method, const N: usize>(
-    system: &Sys,
-    method: Met,
-    x0: [f64; N],
-    t_end: f64,
-) -> Result<Solution<Sys, Met, N>, Error> {
-    let run = Integrator::new(system, method)
-        .initial(0.0, x0)
-        .run_until(t_end);
-    run.map_err(|stopped| stopped.error().clone())
 }
 
 /// The time of bounce number n of the ball dropped from 1/2: 1 + 2 (e + e² + …).
@@ -61,12 +50,8 @@ fn a_ball_bounces_with_every_scheme() -> Result<(), Error> {
     Ok(())
 }
 
-fn times<Sys: System<N>, Met: Method, const N: usize>(run: Solution<Sys, Met, N>) -> Vec<f64> {
-    run.transitions().iter().map(|one| one.t).collect()
-}
-
 #[test]
-fn a_transition_tells_what_has_happened() -> Result<(), Box<dyn std::error::Error>> {
+fn a_transition_tells_what_has_happened() -> Result<(), Failure> {
     let ball = Ball { e: 0.5 };
     let solution = run(&ball, Taylor::tolerance(1e-12), [0.5, 0.0], 2.4)?;
     let [first, second] = solution.transitions() else {
@@ -279,8 +264,6 @@ fn a_mode_can_be_named_at_the_start() -> Result<(), Failure> {
     Ok(())
 }
 
-type Failure = Box<dyn std::error::Error>;
-
 pws! {
     /// Two events that set the same state.
     pub system Both {
@@ -306,41 +289,12 @@ fn events_at_once_must_agree() {
     assert!(run(&Both {}, Taylor::tolerance(1e-12), [-1.0, -0.5], 3.0).is_ok());
 }
 
-/// `Best`, by a tolerance.
-struct Tolerance(f64);
-
-impl MethodChoice for Tolerance {
-    fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
-        visitor.visit(Best::tolerance(self.0))
-    }
-}
-
 #[test]
 fn systems_compiled_at_run_time_have_the_same_events() -> Result<(), Failure> {
-    fn assert_same<Sys: System<N>, const N: usize>(
-        system: &Sys,
-        x0: [f64; N],
-        t_end: f64,
-    ) -> Result<(), Failure> {
-        let model = Model::compile(system.declaration())?;
-        let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
-        let from = InitialValue::new(x0.to_vec(), t_end);
-        let end = model.integrate(&Tolerance(1e-12), &from, &mut Unobserved)?;
-        let expected = Integrator::new(system, Best::tolerance(1e-12)).initial(0.0, x0);
-        let expected = expected.observe_until(t_end, &mut ())?;
-        let name = system.metadata().name;
-        assert_eq!(
-            end.statistics.transitions, expected.statistics.transitions,
-            "{name}"
-        );
-        for (one, other) in end.x.iter().zip(expected.point.x.iter()) {
-            assert!((one - other).abs() < 1e-11, "{name}: {one} {other}");
-        }
-        Ok(())
-    }
-    assert_same(&Ball::default(), [0.5, 0.0], 2.9)?;
-    assert_same(&Walls {}, [0.2, 0.3, 0.7, 1.1], 50.0)?;
-    assert_same(&Thermostat::default(), [0.0], 8.0)?;
-    assert_same(&Doses::default(), [0.0], 20.0)?;
-    assert_same(&Neuron::default(), [0.0, 0.0], 30.0)
+    same_at_run_time(&Ball::default(), [0.5, 0.0], 2.9)?;
+    same_at_run_time(&Walls {}, [0.2, 0.3, 0.7, 1.1], 50.0)?;
+    same_at_run_time(&Thermostat::default(), [0.0], 8.0)?;
+    same_at_run_time(&Doses::default(), [0.0], 20.0)?;
+    same_at_run_time(&Neuron::default(), [0.0, 0.0], 30.0)?;
+    Ok(())
 }
