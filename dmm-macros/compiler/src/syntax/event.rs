@@ -10,7 +10,7 @@ use super::target::target;
 use super::{Assignment, Comparison, Direction, EventItem, Relation, Trigger};
 use super::{formula, name};
 use crate::diagnostics::catalogue::syntax::{EVENT, SEMICOLON};
-use crate::diagnostics::{Diagnostics, Extent};
+use crate::diagnostics::{Code, Diagnostics, Extent};
 
 /// What follows `on`, `every` or `at`.
 pub(super) fn event(
@@ -102,7 +102,7 @@ fn direction(word: &Ident) -> syn::Result<Direction> {
 
 /// `v < 0 and theta > 0.05`, up to the block.
 fn comparisons(input: ParseStream<'_>) -> syn::Result<Vec<Comparison>> {
-    let mut comparisons = vec![comparison(input)?];
+    let mut comparisons = vec![comparison(input, &EVENT)?];
     while !input.is_empty() && !input.peek(token::Brace) {
         if name::peek_is(input, "and") || input.peek(Token![,]) {
             name::skip_one(input);
@@ -112,24 +112,24 @@ fn comparisons(input: ParseStream<'_>) -> syn::Result<Vec<Comparison>> {
             let message = "expected `and` and another condition, or the block `{ … }`";
             return Err(EVENT.error(input.span(), message));
         }
-        comparisons.push(comparison(input)?);
+        comparisons.push(comparison(input, &EVENT)?);
     }
     Ok(comparisons)
 }
 
-/// `left < right`
-pub(super) fn comparison(input: ParseStream<'_>) -> syn::Result<Comparison> {
+/// `left < right`; what is wrong has the code of what it belongs to.
+pub(super) fn comparison(input: ParseStream<'_>, code: &Code) -> syn::Result<Comparison> {
     let left = formula::formula(input)?;
     let relation = if input.peek(Token![>=]) || input.peek(Token![<=]) {
         let message =
             "write `>` or `<`: what holds at the boundary alone holds at no time that is found";
-        return Err(EVENT.error(input.span(), message));
+        return Err(code.error(input.span(), message));
     } else if input.peek(Token![>]) {
         Relation::Greater
     } else if input.peek(Token![<]) {
         Relation::Less
     } else {
-        return Err(EVENT.error(input.span(), "expected `>` or `<`"));
+        return Err(code.error(input.span(), "expected `>` or `<`, as in `v > 0`"));
     };
     name::skip_one(input);
     let right = formula::formula(input)?;

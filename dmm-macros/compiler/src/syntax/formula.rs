@@ -188,7 +188,7 @@ fn branch(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<
     const FORM: &str = "a formula switches as in `if v > 0 { 1 } else { -1 }`";
     let nesting = deeper(input, nesting)?;
     name::word(input)?;
-    let condition = event::comparison(input)?;
+    let condition = event::comparison(input, &BRANCH)?;
     if name::peek_is(input, "and") || input.peek(Token![&&]) || input.peek(Token![||]) {
         let message = "one comparison decides: put a branch into another one";
         return Err(BRANCH.error(input.span(), message));

@@ -383,7 +383,7 @@ fn unexpected_sign(input: ParseStream<'_>) -> (Code, &'static str) {
     {
         (
             BRANCH,
-            "formulas have neither comparisons nor branches: declare an `interface` and a `region` on each side of it",
+            "a comparison decides in a branch: write `if a > b { u } else { v }`",
         )
     } else if input.peek(Token![..]) {
         (

@@ -22,7 +22,7 @@ fn one_precise_message_for_a_wrong_formula() {
         ("", "the formula ends"),
         ("(x +)", "the formula ends"),
         ("(x y)", "missing operator"),
-        ("x > 0", "neither comparisons nor branches"),
+        ("x > 0", "a comparison decides in a branch"),
         ("if x { 1 } else { 2 }", "expected `>` or `<`"),
         ("x, 2", "takes one definition"),
         ("\"x\"", "made of real numbers"),
