@@ -67,7 +67,7 @@ pub enum ErrorKind {
     /// The end time lies before the initial time.
     #[error(
         "the end time {t_end} is before the initial time {t0}: time runs forwards; to go backwards, \
-         integrate `Reversed(system)` from {} to {}", -t0, -t_end
+         integrate `Reversed(system)` from {} to {}", 0.0 - t0, 0.0 - t_end
     )]
     BackwardTime {
         /// Initial time.
