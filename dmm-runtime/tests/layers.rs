@@ -45,7 +45,9 @@ fn check(layer: usize, path: &Path) -> usize {
     }
     let text = fs::read_to_string(path).expect("a file");
     let mut count = 0;
-    for import in text.lines().flat_map(imports) {
+    // what a macro names is imported where it is called
+    let lines = text.lines().filter(|line| !line.contains("$crate::"));
+    for import in lines.flat_map(imports) {
         let below = LAYERS.iter().position(|other| *other == import);
         let below = below.unwrap_or_else(|| panic!("{}: crate::{import}", path.display()));
         assert!(below <= layer, "{} imports {import}", path.display());
