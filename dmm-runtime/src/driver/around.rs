@@ -8,7 +8,6 @@
 //! one of them neither enters nor leaves (dg/dt = 0) it is not determined. Nothing depends on the
 //! order in which interfaces and regions are declared.
 
-use super::next::stays;
 use super::reading::Reading;
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
@@ -74,12 +73,14 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
     /// None, or several.
     pub(super) fn entered(&self) -> Result<(Sys::Region, Active), Error> {
         let regions = self.regions();
-        let enters = |region: &Sys::Region| self.enters(*region);
-        let entered: Vec<Sys::Region> = regions.iter().copied().filter(enters).collect();
+        let inwards: Vec<f64> = regions.iter().map(|&region| self.inwards(region)).collect();
         // a field that is tangential to an interface may lead into its region as well
-        if regions.iter().any(|&region| self.is_tangential(region)) {
+        if inwards.contains(&0.0) {
             return Err(self.none(&regions));
         }
+        let entered = regions.iter().zip(&inwards);
+        let entered = entered.filter(|(_, inwards)| **inwards > 0.0);
+        let entered: Vec<Sys::Region> = entered.map(|(&region, _)| region).collect();
         match (&entered[..], &regions[..]) {
             (&[region], _) => Ok((region, self.active(region))),
             ([], []) => Err(self.error(ErrorKind::NoRegion)),
@@ -106,9 +107,10 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         let mut regions = Vec::new();
         for choice in 0..1_usize << self.on.len() {
             for (place, &interface) in self.on.iter().enumerate() {
-                sides[interface] = match choice >> place & 1 {
-                    0 => Side::Positive,
-                    _ => Side::Negative,
+                sides[interface] = if choice >> place & 1 == 0 {
+                    Side::Positive
+                } else {
+                    Side::Negative
                 };
             }
             let region = self.settled(sides.clone());
@@ -141,22 +143,21 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         Some(region)
     }
 
-    /// Whether the field of a region leads into it.
-    fn enters(&self, region: Sys::Region) -> bool {
-        self.on.iter().all(|&interface| {
-            let side = self.system.side(region, interface);
-            side.is_none_or(|side| self.rate(region, interface) * side.sign() > 0.0)
-        })
-    }
-
-    /// Whether the field of a region leads out of it at none of the interfaces, and is tangential to
-    /// one of them.
-    fn is_tangential(&self, region: Sys::Region) -> bool {
+    /// The least dg/dt into a region among the interfaces that bound it at the point: its field leads
+    /// into it where that is positive.
+    fn inwards(&self, region: Sys::Region) -> f64 {
         let rates = self.on.iter().filter_map(|&interface| {
             let side = self.system.side(region, interface)?;
             Some(self.rate(region, interface) * side.sign())
         });
-        rates.fold(f64::INFINITY, f64::min) == 0.0
+        // a rate that is not a number leads nowhere
+        rates.fold(f64::INFINITY, |least, rate| {
+            if rate < least || rate.is_nan() {
+                rate
+            } else {
+                least
+            }
+        })
     }
 
     fn rate(&self, region: Sys::Region, interface: usize) -> f64 {
@@ -198,4 +199,41 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
     fn error(&self, kind: ErrorKind) -> Error {
         kind.at(self.t, self.x.as_slice(), "")
     }
+}
+
+/// A mode with dg/dt under its field.
+type Rated<R> = (R, f64);
+
+/// The error of a solution that the field of neither side leads away from an interface: both point
+/// at it, or one is tangential to it.
+#[cold]
+pub(super) fn stays<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    ((from, rate_from), (to, rate_to)): (Rated<Sys::Region>, Rated<Sys::Region>),
+    interface: usize,
+    t: f64,
+    x: &Vector<f64, N>,
+) -> Error {
+    let inwards = system.side(to, interface).map_or(0.0, Side::sign);
+    let interface = system.metadata().guard_name(interface);
+    let [from, to] = [from, to].map(|region| system.of_region(region).name);
+    let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
+    let kind = if slides {
+        ErrorKind::Sliding {
+            interface,
+            from,
+            to,
+            rate_from,
+            rate_to,
+        }
+    } else {
+        ErrorKind::Tangential {
+            interface,
+            from,
+            to,
+            rate_from,
+            rate_to,
+        }
+    };
+    kind.at(t, x.as_slice(), from)
 }

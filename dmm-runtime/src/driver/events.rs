@@ -28,7 +28,6 @@ pub(super) fn happens<Sys: System<N>, const N: usize>(
         is_here && on.contains(&event.interface) && is_crossed(system, from, met, event, t, x)
     };
     let mut happened: Option<Happened<Sys::Region, N>> = None;
-    let mut given = Given::default();
     for (index, event) in system.metadata().events.iter().enumerate() {
         if !happens(event) {
             continue;
@@ -44,22 +43,23 @@ pub(super) fn happens<Sys: System<N>, const N: usize>(
             if after[i] == x[i] {
                 continue;
             }
-            if !given.state(i, after[i]) {
+            if is_given(all.state.x[i], x[i], after[i]) {
                 return Err(conflict(system, from, system.metadata().states[i], t, x));
             }
             // what changes its sign alone keeps its last digits
-            all.state.remainder[i] = match after[i] == -x[i] {
-                true => -state.remainder[i],
-                false => 0.0,
+            all.state.remainder[i] = if after[i] == -x[i] {
+                -state.remainder[i]
+            } else {
+                0.0
             };
             all.state.x[i] = after[i];
         }
-        let pairs = Sys::constants(mode).into_iter().zip(Sys::constants(from));
-        for (i, (after, before)) in pairs.enumerate() {
+        let [after, before, so_far] = [mode, from, all.mode].map(Sys::constants);
+        for (i, (&after, &before)) in after.iter().zip(&before).enumerate() {
             if after == before {
                 continue;
             }
-            if !given.discrete(i, after) {
+            if is_given(so_far[i], before, after) {
                 return Err(conflict(system, from, system.metadata().discrete[i], t, x));
             }
             all.mode = Sys::with_constant(all.mode, i, after);
@@ -68,30 +68,9 @@ pub(super) fn happens<Sys: System<N>, const N: usize>(
     Ok(happened)
 }
 
-/// The values that events have given.
-#[derive(Default)]
-struct Given {
-    states: Vec<(usize, f64)>,
-    discrete: Vec<(usize, f64)>,
-}
-
-impl Given {
-    /// Whether no other value was given before.
-    fn state(&mut self, index: usize, value: f64) -> bool {
-        give(&mut self.states, index, value)
-    }
-
-    /// The same of a discrete state.
-    fn discrete(&mut self, index: usize, value: f64) -> bool {
-        give(&mut self.discrete, index, value)
-    }
-}
-
-fn give(given: &mut Vec<(usize, f64)>, index: usize, value: f64) -> bool {
-    let earlier = given.iter().find(|(of, _)| *of == index);
-    let agrees = earlier.is_none_or(|&(_, earlier)| earlier == value);
-    given.push((index, value));
-    agrees
+/// Whether another event has given something a value other than `after`.
+fn is_given(so_far: f64, before: f64, after: f64) -> bool {
+    so_far != before && so_far != after
 }
 
 /// Two events give one state two values.
@@ -116,9 +95,10 @@ fn is_crossed<Sys: System<N>, const N: usize>(
     t: f64,
     x: &Vector<f64, N>,
 ) -> bool {
-    let rate = match event.interface == interface {
-        true => rate,
-        false => Reading::new(system, from, event.interface, t, x).rate,
+    let rate = if event.interface == interface {
+        rate
+    } else {
+        Reading::new(system, from, event.interface, t, x).rate
     };
     match system.side(from, event.interface) {
         Some(Side::Positive) => event.falls && rate < 0.0,

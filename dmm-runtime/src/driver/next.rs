@@ -1,7 +1,7 @@
 //! The next mode: decided at a point of an interface by the rates dg/dt of the fields around it,
 //! behind the events that happen there.
 
-use super::around::Around;
+use super::around::{Around, stays};
 use super::conditions::check_conditions;
 use super::events::{Happened, happens};
 use super::reading::Reading;
@@ -131,41 +131,4 @@ fn across<Sys: System<N>, const N: usize>(
     }
     let both = ((from, rate_from), (to, rate_to));
     Err(stays(system, both, interface, t, x))
-}
-
-/// A mode with dg/dt under its field.
-type Rated<R> = (R, f64);
-
-/// The error of a solution that the field of neither side leads away from an interface: both point
-/// at it, or one is tangential to it.
-#[cold]
-pub(super) fn stays<Sys: System<N>, const N: usize>(
-    system: &Sys,
-    ((from, rate_from), (to, rate_to)): (Rated<Sys::Region>, Rated<Sys::Region>),
-    interface: usize,
-    t: f64,
-    x: &Vector<f64, N>,
-) -> Error {
-    let inwards = system.side(to, interface).map_or(0.0, Side::sign);
-    let interface = system.metadata().guard_name(interface);
-    let [from, to] = [from, to].map(|region| system.of_region(region).name);
-    let slides = rate_to * inwards < 0.0 && rate_from * inwards > 0.0;
-    let kind = if slides {
-        ErrorKind::Sliding {
-            interface,
-            from,
-            to,
-            rate_from,
-            rate_to,
-        }
-    } else {
-        ErrorKind::Tangential {
-            interface,
-            from,
-            to,
-            rate_from,
-            rate_to,
-        }
-    };
-    kind.at(t, x.as_slice(), from)
 }

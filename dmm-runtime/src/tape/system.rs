@@ -161,9 +161,10 @@ impl<const N: usize, const M: usize> Tape<N, M> {
     fn constant(&self, mode: TapeMode, index: usize) -> f64 {
         let behind = |place: usize| {
             let discrete = self.code.metadata.discrete.len();
-            mode.constant(match place < discrete {
-                true => place,
-                false => place - discrete + MOST_DISCRETE,
+            mode.constant(if place < discrete {
+                place
+            } else {
+                place - discrete + MOST_DISCRETE
             })
         };
         let parameter = self.parameters.get(index).copied();
@@ -270,9 +271,12 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
     ) -> V::Output {
         let known = self.code.regions.len();
         let region = &self.code.regions[mode.region.0.min(known - 1)];
-        let parameter = |index: usize| match index < self.parameters.len() {
-            true => parameter(index),
-            false => S::from_f64(self.constant(mode, index)),
+        let parameter = |index: usize| {
+            if index < self.parameters.len() {
+                parameter(index)
+            } else {
+                S::from_f64(self.constant(mode, index))
+            }
         };
         visitor.visit(&TapeDynamics::<S, N, M>::new(region, parameter))
     }

@@ -68,11 +68,13 @@ impl<'d> Resolver<'d> {
             Trigger::On {
                 interface,
                 direction,
-            } => self.on(interface).map(|interface| Event {
-                rises: *direction != Direction::Falling,
-                falls: *direction != Direction::Rising,
-                ..Event::new(interface)
-            }),
+            } => self
+                .interface_named(interface, "on name …")
+                .map(|interface| Event {
+                    rises: *direction != Direction::Falling,
+                    falls: *direction != Direction::Rising,
+                    ..Event::new(interface)
+                }),
             Trigger::Every(period) => self.every(period, number, item.extent),
             Trigger::At(time) => self.at(time, number, item.extent),
         };
@@ -108,36 +110,6 @@ impl<'d> Resolver<'d> {
                 ..event
             });
         }
-    }
-
-    /// The interface that an event names.
-    fn on(&mut self, ident: &Ident) -> Option<usize> {
-        let mut known = self.regions.interfaces.iter();
-        let is_named =
-            |known: &Option<Interface>| known.as_ref().is_some_and(|known| known.ident == *ident);
-        if let Some(index) = known.position(is_named) {
-            return Some(index);
-        }
-        let text = ident.to_string();
-        let names = &self.scope.names;
-        let message = match names.get(&text).map(|symbol| symbol.kind) {
-            // what is wrong with it has been reported
-            Some(Kind::Interface) => return None,
-            _ if names.is_refused(&text) => return None,
-            Some(kind) => format!(
-                "`{text}` is {}, not an interface: declare `interface name = {text};` and write `on name …`",
-                kind.article()
-            ),
-            None => match names.closest(&text, &[Kind::Interface]) {
-                Some(candidate) => {
-                    format!("there is no interface `{text}`; did you mean `{candidate}`?")
-                }
-                None => format!("there is no interface `{text}`: declare `interface {text} = …;`"),
-            },
-        };
-        self.scope.names.mark_used(&text);
-        self.report(codes::NOT_AN_INTERFACE, ident, message);
-        None
     }
 
     /// `every period`: g = t − n period rises where n counts the events.
@@ -202,12 +174,10 @@ impl<'d> Resolver<'d> {
     fn fixed(&mut self, formula: &'d Expression, what: &str) -> Option<Value> {
         let value = self.formula(formula, Allowed::All)?;
         let depends_on = self.evaluator.dag.variables([value.id]);
-        let mut parameters = self.regions.parameters.iter();
-        let varies = depends_on.len()
-            > parameters
-                .by_ref()
-                .filter(|one| depends_on.contains(&one.name))
-                .count();
+        let parameters = &self.regions.parameters;
+        let varies = depends_on
+            .iter()
+            .any(|name| parameters.iter().all(|one| one.name != *name));
         if varies {
             let message = format!("{what} depends on parameters and constants alone");
             self.report(codes::EVENT_TIME, formula.extent, message);

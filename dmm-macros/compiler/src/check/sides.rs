@@ -56,26 +56,32 @@ impl Resolver<'_> {
     }
 
     fn side(&mut self, condition: &Condition) -> Option<Side> {
-        let ident = &condition.interface;
+        let use_of = format!("name {} 0", condition.relation.symbol());
+        let interface = self.interface_named(&condition.interface, &use_of)?;
+        let sign = match condition.relation {
+            Relation::Less => Sign::Negative,
+            Relation::Greater => Sign::Positive,
+        };
+        Some(Side { interface, sign })
+    }
+
+    /// The number of the interface `ident`; if it is none, that is reported with how the name of one
+    /// is used there.
+    pub(super) fn interface_named(&mut self, ident: &Ident, use_of: &str) -> Option<usize> {
         let text = ident.to_string();
         let message = match self.scope.names.get(&text).map(|symbol| symbol.kind) {
             Some(Kind::Interface) => {
-                let interface = (self.regions.interfaces.iter())
-                    .position(|known| known.as_ref().is_some_and(|known| known.ident == *ident))?;
-                let sign = match condition.relation {
-                    Relation::Less => Sign::Negative,
-                    Relation::Greater => Sign::Positive,
-                };
-                return Some(Side { interface, sign });
+                let mut known = self.regions.interfaces.iter();
+                return known
+                    .position(|known| known.as_ref().is_some_and(|known| known.ident == *ident));
             }
             // an interface was meant to be declared under this name
             Some(_) if self.scope.names.is_refused(&text) => return None,
             Some(kind) => {
                 self.scope.names.mark_used(&text);
                 format!(
-                    "`{text}` is {}, not an interface: declare `interface name = {text};` and write `name {} 0`",
+                    "`{text}` is {}, not an interface: declare `interface name = {text};` and write `{use_of}`",
                     kind.article(),
-                    condition.relation.symbol()
                 )
             }
             None => match self.scope.names.closest(&text, &[Kind::Interface]) {
@@ -103,11 +109,11 @@ impl Resolver<'_> {
         let events = declared
             .filter(|item| matches!(item, Item::Event(_)))
             .count();
-        // a wrong event was meant to be at an interface
-        if items.is_empty() && self.regions.events.len() < events {
-            return;
-        }
         if items.is_empty() {
+            // a wrong event was meant to be at an interface
+            if self.regions.events.len() < events {
+                return;
+            }
             interfaces
                 .iter()
                 .for_each(|interface| self.no_region(interface));

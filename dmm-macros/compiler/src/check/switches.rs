@@ -155,9 +155,10 @@ impl<'d> Resolver<'d> {
             return None;
         }
         let text = to_text(&self.evaluator.dag, g);
-        let label = match text.chars().count() <= LONGEST_NAME {
-            true => text,
-            false => format!("switch {}", switches + 1),
+        let label = if text.chars().count() <= LONGEST_NAME {
+            text
+        } else {
+            format!("switch {}", switches + 1)
         };
         let ident = format_ident!("switch_{}", switches + 1);
         let side = Model::side_of(&ident);

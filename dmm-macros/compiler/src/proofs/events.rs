@@ -26,7 +26,7 @@ pub(super) fn prove(model: &mut Model, variables: &Variables, diagnostics: &mut 
     } = model;
     let states: Vec<Name> = states.iter().map(|state| state.name.clone()).collect();
     let discrete: Vec<Name> = discrete.iter().map(|one| one.name.clone()).collect();
-    for event in events.iter() {
+    for event in events.iter().filter(|event| !event.conserved.is_empty()) {
         let Some(interface) = interfaces.get(event.interface) else {
             continue;
         };

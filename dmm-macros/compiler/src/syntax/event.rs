@@ -7,10 +7,10 @@ use syn::{Attribute, Token, braced, token};
 
 use super::definition::{after_formula, equals};
 use super::target::target;
-use super::{Assignment, Comparison, Direction, EventItem, Relation, Trigger};
+use super::{Assignment, Comparison, Direction, EventItem, Trigger};
 use super::{formula, name};
 use crate::diagnostics::catalogue::syntax::{EVENT, SEMICOLON};
-use crate::diagnostics::{Code, Diagnostics, Extent};
+use crate::diagnostics::{Diagnostics, Extent};
 
 /// What follows `on`, `every` or `at`.
 pub(super) fn event(
@@ -55,9 +55,10 @@ fn trigger(input: ParseStream<'_>, keyword: &Ident) -> syn::Result<(Trigger, Ext
     if keyword == "every" || keyword == "at" {
         let time = formula::formula(input)?;
         let extent = start.to(time.extent);
-        let trigger = match keyword == "every" {
-            true => Trigger::Every(time),
-            false => Trigger::At(time),
+        let trigger = if keyword == "every" {
+            Trigger::Every(time)
+        } else {
+            Trigger::At(time)
         };
         return Ok((trigger, extent));
     }
@@ -102,7 +103,7 @@ fn direction(word: &Ident) -> syn::Result<Direction> {
 
 /// `v < 0 and theta > 0.05`, up to the block.
 fn comparisons(input: ParseStream<'_>) -> syn::Result<Vec<Comparison>> {
-    let mut comparisons = vec![comparison(input, &EVENT)?];
+    let mut comparisons = vec![formula::comparison(input, &EVENT)?];
     while !input.is_empty() && !input.peek(token::Brace) {
         if name::peek_is(input, "and") || input.peek(Token![,]) {
             name::skip_one(input);
@@ -112,32 +113,9 @@ fn comparisons(input: ParseStream<'_>) -> syn::Result<Vec<Comparison>> {
             let message = "expected `and` and another condition, or the block `{ … }`";
             return Err(EVENT.error(input.span(), message));
         }
-        comparisons.push(comparison(input, &EVENT)?);
+        comparisons.push(formula::comparison(input, &EVENT)?);
     }
     Ok(comparisons)
-}
-
-/// `left < right`; what is wrong has the code of what it belongs to.
-pub(super) fn comparison(input: ParseStream<'_>, code: &Code) -> syn::Result<Comparison> {
-    let left = formula::formula(input)?;
-    let relation = if input.peek(Token![>=]) || input.peek(Token![<=]) {
-        let message =
-            "write `>` or `<`: what holds at the boundary alone holds at no time that is found";
-        return Err(code.error(input.span(), message));
-    } else if input.peek(Token![>]) {
-        Relation::Greater
-    } else if input.peek(Token![<]) {
-        Relation::Less
-    } else {
-        return Err(code.error(input.span(), "expected `>` or `<`, as in `v > 0`"));
-    };
-    name::skip_one(input);
-    let right = formula::formula(input)?;
-    Ok(Comparison {
-        left,
-        relation,
-        right,
-    })
 }
 
 /// `v = -v;` or `conserves energy, momentum;`

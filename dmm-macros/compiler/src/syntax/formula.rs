@@ -7,9 +7,9 @@ use syn::{Lit, Token, braced, parenthesized, token};
 
 use super::expression::{Expression, ExpressionKind, Operator};
 use super::mistake::{self, SUM_FORM};
-use super::{Range, event, instead, name, number};
-use crate::diagnostics::Extent;
+use super::{Comparison, Range, Relation, instead, name, number};
 use crate::diagnostics::catalogue::syntax::{BRANCH, DEPTH, INDEX, PATH, RANGE, SUM};
+use crate::diagnostics::{Code, Extent};
 
 /// Parentheses, signs, exponents and indices may be nested this deep.
 const DEEPEST_NESTING: usize = 64;
@@ -183,12 +183,35 @@ fn word(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Ex
     Expression::new(ExpressionKind::Name(ident.clone()), ident.into())
 }
 
+/// `left < right`; what is wrong has the code of what it belongs to.
+pub(super) fn comparison(input: ParseStream<'_>, code: &Code) -> syn::Result<Comparison> {
+    let left = formula(input)?;
+    let relation = if input.peek(Token![>=]) || input.peek(Token![<=]) {
+        let message =
+            "write `>` or `<`: what holds at the boundary alone holds at no time that is found";
+        return Err(code.error(input.span(), message));
+    } else if input.peek(Token![>]) {
+        Relation::Greater
+    } else if input.peek(Token![<]) {
+        Relation::Less
+    } else {
+        return Err(code.error(input.span(), "expected `>` or `<`, as in `v > 0`"));
+    };
+    name::skip_one(input);
+    let right = formula(input)?;
+    Ok(Comparison {
+        left,
+        relation,
+        right,
+    })
+}
+
 /// `if a > b { then } else { otherwise }`
 fn branch(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<Expression> {
     const FORM: &str = "a formula switches as in `if v > 0 { 1 } else { -1 }`";
     let nesting = deeper(input, nesting)?;
     name::word(input)?;
-    let condition = event::comparison(input, &BRANCH)?;
+    let condition = comparison(input, &BRANCH)?;
     if name::peek_is(input, "and") || input.peek(Token![&&]) || input.peek(Token![||]) {
         let message = "one comparison decides: put a branch into another one";
         return Err(BRANCH.error(input.span(), message));
