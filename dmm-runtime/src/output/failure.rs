@@ -49,7 +49,7 @@ impl Failure {
 }
 
 /// Why a step over τ from (t, x) has no finite values: what f(t, x) and ψ(t, x) lack, or a solution
-/// that overflows within the step if it goes on growing as it does at its start.
+/// whose squares overflow within the step if it goes on growing as it does at its start.
 struct Diagnose<'a, const N: usize> {
     t: f64,
     x: &'a Vector<f64, N>,
@@ -60,8 +60,8 @@ impl<const N: usize> DynamicsVisitor<N> for Diagnose<'_, N> {
     type Output = Option<Fault>;
 
     fn visit<const M: usize, F: Dynamics<f64, N, M>>(self, dynamics: &F) -> Option<Fault> {
-        /// ln of an eighth of the largest double: there may be sums of a few states.
-        const LARGEST: f64 = 707.7;
+        /// ln of the largest number whose square is a double: methods take squares of states.
+        const LARGEST: f64 = 354.8;
         let dynamics = dynamics.over::<Traced>();
         let (t, x) = (Traced::from_f64(self.t), self.x.map(Traced::from_f64));
         let field = dynamics.vector_field(t, &x);

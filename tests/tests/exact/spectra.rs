@@ -245,10 +245,7 @@ fn what_overflows_is_refused_where_it_does() {
         .observe_until(10.0, &mut ())
         .unwrap_err();
     assert!(
-        matches!(
-            halted.error().kind,
-            ErrorKind::Overflow | ErrorKind::LeftDomain
-        ),
+        matches!(halted.error().kind, ErrorKind::Overflow),
         "{}",
         halted.error()
     );
