@@ -128,8 +128,8 @@ pub enum ErrorKind {
     /// Both vector fields point at the interface, so that the solution would slide on it.
     #[error(
         "the vector fields of both sides point at interface `{interface}` (dg/dt = {rate_from:e} \
-         in region `{from}`, {rate_to:e} in region `{to}`): the solution slides along it, which is \
-         not supported"
+         in region `{from}`, {rate_to:e} in region `{to}`): the solution slides along it, which has \
+         to be declared with the interface or the `if`, by `sliding`"
     )]
     Sliding {
         /// Interface.
@@ -176,7 +176,8 @@ pub enum ErrorKind {
     /// leads into it.
     #[error(
         "the point is on {interfaces} at once, and no region around it has a vector field that \
-         leads into it: the solution slides or rests there, which is not supported"
+         leads into it, nor is there one sliding motion: the interfaces have to be declared `sliding`, \
+         and the mean of their fields has to be determined"
     )]
     Intersection {
         /// The interfaces.

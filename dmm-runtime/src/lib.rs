@@ -171,7 +171,7 @@ mod tape;
 pub use arithmetic::{Matrix, MinimalNorm, Scalar, State, Time, Vector};
 pub use contract::{
     Condition, Dynamics, DynamicsVisitor, Event, Guards, InitialState, Metadata, Mode, NoGuards,
-    RegionMetadata, Reversed, Side, Solvability, System,
+    RegionMetadata, Reversed, Side, SlideEnd, Solvability, System,
 };
 pub use driver::{InitialValueProblem, Integrator, Recording, Stepped, Stepper};
 pub use ensemble::{Ensemble, Member, Outcome};

@@ -3,7 +3,7 @@
 pub use crate::arithmetic::{Matrix, MinimalNorm, Scalar, Vector, sparse};
 pub use crate::contract::{
     Condition, Dynamics, DynamicsVisitor, Event, Guards, LOW_DEGREE, Metadata, Mode, NoGuards,
-    RegionMetadata, Side, Solvability, System, sides,
+    RegionMetadata, Side, SlideEnd, Solvability, System, sides,
 };
 pub use crate::series;
 pub use dmm_macros::pws;

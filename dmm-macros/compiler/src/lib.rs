@@ -2,7 +2,7 @@
 //! what it claims is proved, the Discrete Multiplier Method (Wan, Bihlo & Nave 2017) derives
 //! the scheme that conserves it exactly, and the scheme becomes Rust.
 //!
-//! tokens → [`syntax`] → [`check`] → [`proofs`] → [`scheme`] → [`program`] → [`emit`] → tokens.
+//! tokens → [`syntax`] → [`check`] → [`sliding`] → [`proofs`] → [`scheme`] → [`program`] → [`emit`] → tokens.
 //!
 //! A stage reports all that it can check to [`diagnostics`]; the next one starts if there was
 //! nothing to report. [`compile`] is the way through all of them, [`read`] and [`explain`] stop
@@ -231,6 +231,7 @@ pub mod model;
 pub mod program;
 pub mod proofs;
 pub mod scheme;
+pub mod sliding;
 pub mod stub;
 pub mod syntax;
 #[cfg(feature = "text")]
@@ -295,7 +296,11 @@ pub fn derive(declaration: Declaration, diagnostics: &mut Diagnostics) -> Option
     if !diagnostics.is_empty() {
         return None;
     }
-    let model = check::resolve(declaration, diagnostics)?;
+    let mut model = check::resolve(declaration, diagnostics)?;
+    sliding::extend(&mut model, diagnostics);
+    if !diagnostics.is_empty() {
+        return None;
+    }
     let proved = proofs::prove(model, diagnostics)?;
     scheme::derive(proved, diagnostics)
 }

@@ -31,8 +31,11 @@ pub struct Model {
     pub discrete: Vec<Discrete>,
     /// What happens in an instant.
     pub events: Vec<Event>,
-    /// The regions; exactly one, without sides, if there is no interface.
+    /// The regions; exactly one, without sides, if there is no interface. Behind them the sliding
+    /// motions.
     pub regions: Vec<Region>,
+    /// What is declared of sliding motions.
+    pub sliding: Vec<Sliding>,
     /// The declaration as text, formatted for people.
     pub source: String,
 }
@@ -135,10 +138,24 @@ pub struct Interface {
     pub side: Name,
     /// Whether formulas switch at it.
     pub is_switch: bool,
+    /// Whether a solution may slide on it.
+    pub slides: bool,
+    /// What its zero means, if it is no interface but belongs to a sliding motion.
+    pub end: Option<SlideEnd>,
     /// g
     pub switching_function: Id,
     /// Where g stands in the declaration.
     pub span: Extent,
+}
+
+/// The zero of a function of a sliding motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SlideEnd {
+    /// The interface that it belongs to.
+    pub interface: usize,
+    /// The side on which the solution leaves that interface; nothing where it crosses the interface
+    /// while it slides on others.
+    pub side: Option<Sign>,
 }
 
 impl Interface {
@@ -168,6 +185,27 @@ pub struct Region {
     /// The canonical pairs of a `hamiltonian`, as indices of states (q, p): q̇ = ∂H/∂p and
     /// ṗ = −∂H/∂q by construction.
     pub canonical: Vec<(usize, usize)>,
+    /// What it slides on, if it is no part of the space but a motion on interfaces.
+    pub slide: Option<Slide>,
+}
+
+/// A motion on interfaces, along the mean of the fields on their sides that stays on them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Slide {
+    /// The interfaces that it slides on as long as it lasts.
+    pub on: Vec<usize>,
+    /// The switches that it may slide on or not, each with the function that takes the place of its
+    /// switching function: 1 while it slides there.
+    pub switches: Vec<(usize, usize)>,
+}
+
+/// What is declared of the motion on an interface.
+#[derive(Debug)]
+pub struct Sliding {
+    /// The interface.
+    pub interface: usize,
+    /// What is conserved while a solution slides on it.
+    pub conserved: Vec<Conserved>,
 }
 
 /// On which side of an interface a region lies.
@@ -240,6 +278,9 @@ pub enum Claim {
     Assumed,
     /// It is the H of a `hamiltonian`.
     Hamiltonian,
+    /// Every field that a sliding motion is a mean of conserves it, or it is the switching function
+    /// that the mean keeps at zero.
+    Mean,
 }
 
 impl Model {
@@ -268,6 +309,22 @@ impl Model {
         free.map(|(index, _)| index).collect()
     }
 
+    /// The variable that is 1 while a solution slides on an interface, and 0 elsewhere.
+    pub(crate) fn slide_of(interface: &Interface) -> Name {
+        Name::new(&format!("slide on {}", interface.ident))
+    }
+
+    /// The interfaces, without the ends of sliding motions behind them.
+    pub fn real_interfaces(&self) -> impl Iterator<Item = &Interface> {
+        self.interfaces.iter().filter(|one| one.end.is_none())
+    }
+
+    /// The number of an interface among the [free ones](Self::free_interfaces).
+    pub fn place_of_free(&self, interface: usize) -> Option<usize> {
+        let mut free = self.free_interfaces().into_iter();
+        free.position(|one| one == interface)
+    }
+
     /// The variables of the sides of what formulas switch at.
     pub fn switches(&self) -> impl Iterator<Item = &Name> {
         let switches = self.interfaces.iter().filter(|one| one.is_switch);
@@ -276,12 +333,23 @@ impl Model {
 
     /// The variables that are constant in a mode, besides the parameters: the discrete states, then
     /// a number for each of the [free interfaces](Self::free_interfaces), 1 where g > 0 and 0 where
-    /// g < 0.
+    /// g < 0, and if solutions slide on switches another one for each, 1 while they slide there.
     pub fn constants(&self) -> Vec<Name> {
         let discrete = self.discrete.iter().map(|one| one.name.clone());
-        let free = self.free_interfaces().into_iter();
-        let sides = free.filter_map(|index| Some(self.interfaces.get(index)?.side.clone()));
-        discrete.chain(sides).collect()
+        let free = self.free_interfaces();
+        let free = || free.iter().filter_map(|&index| self.interfaces.get(index));
+        let sides = free().map(|one| one.side.clone());
+        let slides = free().filter(|_| self.switches_slide());
+        discrete
+            .chain(sides)
+            .chain(slides.map(Self::slide_of))
+            .collect()
+    }
+
+    /// Whether there are motions that slide on switches.
+    pub fn switches_slide(&self) -> bool {
+        let mut slides = self.regions.iter().filter_map(|one| one.slide.as_ref());
+        slides.any(|slide| !slide.switches.is_empty())
     }
 
     /// The variables of the states, then those of the parameters.

@@ -20,6 +20,11 @@ pub struct Metadata {
     pub free: &'static [usize],
     /// Those of them that formulas switch at.
     pub switches: &'static [usize],
+    /// The interfaces that solutions may slide on.
+    pub sliding: &'static [usize],
+    /// The ends of sliding motions: what the indices of [`Guards::sides`](crate::Guards::sides)
+    /// behind the interfaces stand for.
+    pub ends: &'static [SlideEnd],
     /// What happens in an instant.
     pub events: &'static [Event],
     /// The conditions under which quantities were proved to be conserved, as far as a run has to
@@ -44,6 +49,16 @@ pub struct Event {
     pub clock: Option<usize>,
 }
 
+/// Where a function of a sliding motion is zero.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct SlideEnd {
+    /// The index of the interface that it belongs to in [`Metadata::interfaces`].
+    pub interface: usize,
+    /// The side on which the solution leaves that interface; nothing where it crosses the interface
+    /// while it slides on others.
+    pub side: Option<Side>,
+}
+
 /// The name of a region, where it lies, and the names of what is conserved in it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct RegionMetadata {
@@ -57,6 +72,10 @@ pub struct RegionMetadata {
     /// The index of the region on the other side of each interface that bounds it, where it is
     /// the only one.
     pub neighbours: &'static [Option<usize>],
+    /// The interfaces that it slides on: it is no part of the space then, but a motion on them.
+    pub on: &'static [usize],
+    /// The switches that it slides on or not.
+    pub may_slide: &'static [usize],
 }
 
 impl RegionMetadata {
@@ -66,7 +85,28 @@ impl RegionMetadata {
         conserved: &[],
         sides: &[],
         neighbours: &[],
+        on: &[],
+        may_slide: &[],
     };
+
+    /// Whether it is a part of the space, and no motion on interfaces.
+    pub fn is_open(&self) -> bool {
+        self.on.is_empty() && self.may_slide.is_empty()
+    }
+
+    /// Whether it is the region on these sides of the interfaces, of which nothing stands for those
+    /// that it slides on.
+    fn is_on(&self, sides: &[Option<Side>]) -> bool {
+        let mut pairs = self.sides.iter().zip(sides);
+        let is_within = pairs.all(|(own, side)| own.is_none() || own == side);
+        let slides = |interface: &usize| sides.get(*interface) == Some(&None);
+        let mut slid = (0..sides.len()).filter(slides);
+        let others = slid.clone().filter(|one| !self.on.contains(one)).count();
+        is_within
+            && self.on.iter().all(slides)
+            && slid.all(|one| self.on.contains(&one) || self.may_slide.contains(&one))
+            && (others > 0) != self.may_slide.is_empty()
+    }
 }
 
 impl Metadata {
@@ -75,22 +115,38 @@ impl Metadata {
         !self.discrete.is_empty() || !self.free.is_empty()
     }
 
-    /// The index of the region on these sides of the interfaces.
-    pub fn region_on(&self, sides: &[Side]) -> Option<usize> {
-        self.regions.iter().position(|region| {
-            let mut pairs = region.sides.iter().zip(sides);
-            pairs.all(|(own, side)| own.is_none_or(|own| own == *side))
-        })
+    /// The index of the region on these sides of the interfaces; nothing stands for those that it
+    /// slides on.
+    pub fn region_on(&self, sides: &[Option<Side>]) -> Option<usize> {
+        self.regions.iter().position(|region| region.is_on(sides))
     }
 
-    /// The name of an interface or, behind them, the condition of a guard: what an index of
-    /// [`Guards::sides`](crate::Guards::sides) stands for.
+    /// The end of a sliding motion that a guard stands for.
+    #[inline]
+    pub fn end(&self, guard: usize) -> Option<&'static SlideEnd> {
+        self.ends.get(guard.checked_sub(self.interfaces.len())?)
+    }
+
+    /// The index of the guard of the first condition.
+    #[inline]
+    pub fn first_condition(&self) -> usize {
+        self.interfaces.len() + self.ends.len()
+    }
+
+    /// The condition that a guard stands for.
+    #[inline]
+    pub fn condition(&self, guard: usize) -> Option<&'static Condition> {
+        self.conditions
+            .get(guard.checked_sub(self.first_condition())?)
+    }
+
+    /// The name of a guard, an index of [`Guards::sides`](crate::Guards::sides): of an interface, or
+    /// of that which the end of a sliding motion belongs to, or the text of a condition.
     pub fn guard_name(&self, index: usize) -> &'static str {
-        let condition = || {
-            let number = index.checked_sub(self.interfaces.len())?;
-            Some(self.conditions.get(number)?.condition)
-        };
-        let name = self.interfaces.get(index).copied();
-        name.or_else(condition).unwrap_or_default()
+        let interface = self.end(index).map_or(index, |end| end.interface);
+        match self.interfaces.get(interface) {
+            Some(name) => name,
+            None => self.condition(index).map_or("", |one| one.condition),
+        }
     }
 }

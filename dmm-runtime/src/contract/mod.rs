@@ -18,7 +18,7 @@ pub use condition::Condition;
 pub use dynamics::{Dynamics, DynamicsVisitor, Solvability};
 pub use guards::{Guards, LOW_DEGREE, NoGuards, Side, sides};
 pub use initial::InitialState;
-pub use metadata::{Event, Metadata, RegionMetadata};
+pub use metadata::{Event, Metadata, RegionMetadata, SlideEnd};
 pub use mode::Mode;
 pub use reversed::Reversed;
 pub use system::System;

@@ -3,7 +3,7 @@
 use super::{Metadata, Side};
 
 /// A region with what is constant between events: the D discrete states, and on which sides of F
-/// interfaces the solution is that have events. It is the [`System::Region`](crate::System::Region)
+/// interfaces the solution is that have events or that formulas switch at. It is the [`System::Region`](crate::System::Region)
 /// of a system that has such; of any other system that is the enumeration of its regions.
 ///
 /// ```
@@ -38,8 +38,8 @@ pub struct Mode<R, const D: usize, const F: usize> {
     pub region: R,
     /// The discrete states, in the order of [`Metadata::discrete`].
     pub discrete: [f64; D],
-    /// The sides of the interfaces in [`Metadata::free`].
-    pub sides: [Side; F],
+    /// The sides of the interfaces in [`Metadata::free`]; nothing for those that it slides on.
+    pub sides: [Option<Side>; F],
 }
 
 impl<R: Copy, const D: usize, const F: usize> Mode<R, D, F> {
@@ -48,19 +48,22 @@ impl<R: Copy, const D: usize, const F: usize> Mode<R, D, F> {
         Self {
             region,
             discrete,
-            sides: [Side::Positive; F],
+            sides: [Some(Side::Positive); F],
         }
     }
 
     /// Constant number `index`: the discrete states, then for each side 1 where g > 0 and 0 where
-    /// g < 0.
+    /// g < 0, then for each of them 1 where it slides on g = 0 and 0 elsewhere.
     pub fn constant(&self, index: usize) -> f64 {
-        let side = || self.sides.get(index.checked_sub(D)?);
-        match (self.discrete.get(index), side()) {
-            (Some(&value), _) => value,
-            (None, Some(Side::Positive)) => 1.0,
-            (None, _) => 0.0,
+        if let Some(&value) = self.discrete.get(index) {
+            return value;
         }
+        let place = index - D;
+        let is_one = match self.sides.get(place) {
+            Some(side) => *side != Some(Side::Negative),
+            None => self.sides.get(place - F) == Some(&None),
+        };
+        f64::from(u8::from(is_one))
     }
 
     /// The same with another value of a discrete state.
@@ -72,7 +75,7 @@ impl<R: Copy, const D: usize, const F: usize> Mode<R, D, F> {
     }
 
     /// The region on the sides of all interfaces, with the discrete states of another mode.
-    pub fn on(mut self, metadata: &Metadata, sides: &[Side], like: Option<Self>) -> Self {
+    pub fn on(mut self, metadata: &Metadata, sides: &[Option<Side>], like: Option<Self>) -> Self {
         if let Some(like) = like {
             self.discrete = like.discrete;
         }
@@ -90,7 +93,16 @@ impl<R: Copy, const D: usize, const F: usize> Mode<R, D, F> {
         let own = region.sides.get(interface).copied().flatten();
         own.or_else(|| {
             let place = metadata.free.iter().position(|&one| one == interface)?;
-            self.sides.get(place).copied()
+            self.sides.get(place).copied().flatten()
         })
+    }
+
+    /// Whether the mode, whose region has an index, slides on an interface.
+    pub fn slides_on(&self, metadata: &Metadata, index: usize, interface: usize) -> bool {
+        let region = metadata.regions.get(index);
+        let free = metadata.free.iter().zip(&self.sides);
+        let mut free = free.filter(|(one, _)| **one == interface);
+        region.is_some_and(|region| region.on.contains(&interface))
+            || free.any(|(_, side)| side.is_none())
     }
 }

@@ -23,7 +23,7 @@ use crate::series::Order;
 /// t₁, integrate it from s = −t₀ to s = −t₁. All methods conserve and locate as they do forwards.
 ///
 /// A system with events is refused: what a state was before a jump does not follow from what it is
-/// behind it.
+/// behind it. So is one that slides: many motions go on as the same sliding one.
 ///
 /// Times are those of s: of the points and transitions of a solution, of output times, of errors.
 /// Where the field of a region leads away from an interface forwards, it leads towards it backwards;
@@ -120,8 +120,16 @@ impl<Sys: System<N>, const N: usize> System<N> for Reversed<Sys> {
         self.0.neighbour(region, interface)
     }
 
-    fn region_on(&self, sides: &[Side], like: Option<Self::Region>) -> Option<Self::Region> {
+    fn region_on(
+        &self,
+        sides: &[Option<Side>],
+        like: Option<Self::Region>,
+    ) -> Option<Self::Region> {
         self.0.region_on(sides, like)
+    }
+
+    fn slides_on(&self, region: Self::Region, interface: usize) -> bool {
+        self.0.slides_on(region, interface)
     }
 
     fn constants(region: Self::Region) -> Vec<f64> {
@@ -129,7 +137,13 @@ impl<Sys: System<N>, const N: usize> System<N> for Reversed<Sys> {
     }
 
     fn refusal(&self) -> Option<&'static str> {
-        let has_events = !self.metadata().events.is_empty();
+        let metadata = self.metadata();
+        if !metadata.sliding.is_empty() {
+            return Some(
+                "slides, and where a solution came to an interface is not known from there",
+            );
+        }
+        let has_events = !metadata.events.is_empty();
         has_events
             .then_some("has events, before which the state is not known from that behind them")
     }

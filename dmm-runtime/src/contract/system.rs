@@ -61,14 +61,25 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
         regions.get(Self::index(region)).unwrap_or(UNKNOWN)
     }
 
-    /// The region on these sides of the interfaces, in the order of [`Metadata::interfaces`]. Where
-    /// there are discrete states, they are those of `like`, or the initial ones.
-    fn region_on(&self, sides: &[Side], _like: Option<Self::Region>) -> Option<Self::Region> {
+    /// The region on these sides of the interfaces, in the order of [`Metadata::interfaces`], of which
+    /// nothing stands for those that it slides on. Where there are discrete states, they are those of
+    /// `like`, or the initial ones.
+    fn region_on(
+        &self,
+        sides: &[Option<Side>],
+        _like: Option<Self::Region>,
+    ) -> Option<Self::Region> {
         self.region(self.metadata().region_on(sides)?)
     }
 
+    /// Whether a mode slides on an interface.
+    fn slides_on(&self, region: Self::Region, interface: usize) -> bool {
+        self.of_region(region).on.contains(&interface)
+    }
+
     /// What is constant in a mode: the values of the discrete states, then 1 for each interface of
-    /// [`Metadata::free`] where g > 0, and 0 where g < 0.
+    /// [`Metadata::free`] where g > 0, and 0 where g < 0; where switches slide, then 1 for each that
+    /// the mode slides on, and 0 for the others.
     fn constants(_region: Self::Region) -> Vec<f64> {
         Vec::new()
     }

@@ -1,20 +1,29 @@
-//! What lies around a point of interfaces: the regions that meet there, and the one whose own field
-//! leads into it.
+//! What lies around a point of interfaces: the modes that meet there, and the one that the solution
+//! goes on in.
 //!
 //! Away from the interfaces the signs of the switching functions tell the region. On some of them
-//! every choice of sides is a region that meets the point, and the solution goes on in the one whose
-//! field enters it at each of these interfaces: dg/dt > 0 where it lies on the side g > 0, dg/dt < 0
-//! where it lies on the side g < 0. None is sliding or rest, several are several solutions, and where
-//! one of them neither enters nor leaves (dg/dt = 0) it is not determined. Nothing depends on the
-//! order in which interfaces and regions are declared.
+//! every choice of sides is a region that meets the point, and so is every sliding motion on some of
+//! them. The solution goes on in the mode whose own field fits to its choice at each of these
+//! interfaces: dg/dt > 0 where it lies on the side g > 0, dg/dt < 0 where it lies on the side g < 0,
+//! and where it slides the fields of both sides lead to the interface, which the ends of the motion
+//! tell. These are the solutions of the complementarity problem (17) of Nurkanović, Sperl, Albrecht &
+//! Diehl (2024) of each independent group of interfaces. None is a motion that is not declared,
+//! several are several solutions, and where one of them neither enters nor leaves (dg/dt = 0) it is
+//! not determined. Nothing depends on the order in which interfaces and regions are declared.
 
 use super::reading::Reading;
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
 use crate::method::Active;
 
-/// A point that lies on so many interfaces at most: all choices of their sides are looked at.
-const MOST: usize = 12;
+/// On so many interfaces all choices are looked at; on more of them one group of those that depend on
+/// one another after the other.
+const MOST_AT_ONCE: usize = 5;
+/// A group of interfaces that depend on one another at a point has so many at most.
+const MOST: usize = 8;
+
+/// A choice: the side of an interface, or nothing where it is slid on.
+type Choice = Option<Side>;
 
 /// A point with the signs of the switching functions.
 pub(super) struct Around<'a, Sys: System<N>, const N: usize> {
@@ -24,9 +33,45 @@ pub(super) struct Around<'a, Sys: System<N>, const N: usize> {
     /// A mode with the discrete states of the point.
     like: Sys::Region,
     /// The sides of all interfaces; of no meaning for those that the point is on.
-    sides: Vec<Side>,
+    sides: Vec<Choice>,
     /// The interfaces that the point is on.
     on: Vec<usize>,
+    /// The interface that a sliding motion leaves at the point, on a side: dg/dt is zero there and
+    /// grows.
+    left: Option<(usize, Side)>,
+}
+
+/// How the field of a mode fits to a choice at one interface.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Fit {
+    /// It does.
+    Fits,
+    /// It does not.
+    Fails,
+    /// The rate that decides is zero.
+    Open,
+}
+
+impl Fit {
+    /// By a rate that has to be positive.
+    fn of(rate: f64) -> Self {
+        if rate > 0.0 {
+            Self::Fits
+        } else if rate == 0.0 {
+            Self::Open
+        } else {
+            // a rate that is not a number leads nowhere
+            Self::Fails
+        }
+    }
+
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Fails, _) | (_, Self::Fails) => Self::Fails,
+            (Self::Open, _) | (_, Self::Open) => Self::Open,
+            _ => Self::Fits,
+        }
+    }
 }
 
 impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
@@ -50,7 +95,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
             if reading.is_zero() || is_on(interface, reading.value) {
                 on.push(interface);
             }
-            sides.push(Side::of(reading.value));
+            sides.push(Some(Side::of(reading.value)));
         }
         Ok(Self {
             system,
@@ -59,7 +104,14 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
             like,
             sides,
             on,
+            left: None,
         })
+    }
+
+    /// The same where a sliding motion leaves an interface on a side.
+    pub(super) fn leaving(mut self, interface: usize, side: Side) -> Self {
+        self.left = Some((interface, side));
+        self
     }
 
     /// The interfaces that the point is on.
@@ -67,62 +119,145 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         &self.on
     }
 
-    /// The region that the solution goes on in, and the interfaces that bound it at the point.
+    /// The mode that the solution goes on in, and the interfaces that bound it at the point.
     ///
     /// # Errors
     /// None, or several.
     pub(super) fn entered(&self) -> Result<(Sys::Region, Active), Error> {
-        let regions = self.regions();
-        let inwards: Vec<f64> = regions.iter().map(|&region| self.inwards(region)).collect();
-        // a field that is tangential to an interface may lead into its region as well
-        if inwards.contains(&0.0) {
-            return Err(self.none(&regions));
+        let mut sides = self.sides.clone();
+        let groups = if self.on.len() <= MOST_AT_ONCE {
+            vec![self.on.clone()]
+        } else {
+            self.groups()
+        };
+        for group in &groups {
+            self.choose(group, &mut sides)?;
         }
-        let entered = regions.iter().zip(&inwards);
-        let entered = entered.filter(|(_, inwards)| **inwards > 0.0);
-        let entered: Vec<Sys::Region> = entered.map(|(&region, _)| region).collect();
-        match (&entered[..], &regions[..]) {
-            (&[region], _) => Ok((region, self.active(region))),
+        let mode = self.settled(sides.clone());
+        let mode = mode.ok_or_else(|| self.error(ErrorKind::NoRegion))?;
+        let fits = self.on.iter().map(|&one| self.fit(mode, one, sides[one]));
+        if groups.len() > 1 && fits.fold(Fit::Fits, Fit::and) != Fit::Fits {
+            return Err(self.intersection());
+        }
+        Ok((mode, self.active(mode)))
+    }
+
+    /// Chooses for the interfaces of a group, whose choices depend on one another.
+    fn choose(&self, group: &[usize], sides: &mut [Choice]) -> Result<(), Error> {
+        if group.len() > MOST {
+            return Err(self.intersection());
+        }
+        let mut around = Vec::new();
+        let mut open = false;
+        let mut entered: Vec<(Sys::Region, Vec<Choice>)> = Vec::new();
+        for choices in self.choices(group) {
+            let mut sides = sides.to_vec();
+            for (&interface, &choice) in group.iter().zip(&choices) {
+                sides[interface] = choice;
+            }
+            let Some(mode) = self.settled(sides.clone()) else {
+                continue;
+            };
+            // where an interface does not bound a region, both choices are the same
+            if around.contains(&mode) {
+                continue;
+            }
+            around.push(mode);
+            let fits = group.iter().map(|&one| self.fit(mode, one, sides[one]));
+            match fits.fold(Fit::Fits, Fit::and) {
+                Fit::Fits => entered.push((mode, choices)),
+                Fit::Open => open = true,
+                Fit::Fails => {}
+            }
+        }
+        // a field that is tangential to an interface may lead into its region as well
+        match (&entered[..], &around[..]) {
+            ([(_, choices)], _) if !open => {
+                for (&interface, &choice) in group.iter().zip(choices) {
+                    sides[interface] = choice;
+                }
+                Ok(())
+            }
             ([], []) => Err(self.error(ErrorKind::NoRegion)),
-            ([], regions) => Err(self.none(regions)),
-            (several, _) => Err(self.several(several)),
+            ([], around) => Err(self.none(around)),
+            (_, around) if open => Err(self.none(around)),
+            (several, _) => Err(self.several(several.iter().map(|&(mode, _)| mode))),
         }
     }
 
-    /// The interfaces of the point that bound a region.
-    fn active(&self, region: Sys::Region) -> Active {
-        let bounds = |&&interface: &&usize| self.system.side(region, interface).is_some();
+    /// All choices for a group of interfaces.
+    fn choices(&self, group: &[usize]) -> Vec<Vec<Choice>> {
+        let mut all = vec![Vec::new()];
+        for interface in group {
+            let mut of_interface = match self.left {
+                Some((left, side)) if left == *interface => vec![Some(side)],
+                _ => vec![Some(Side::Positive), Some(Side::Negative)],
+            };
+            let is_left = self.left.is_some_and(|(left, _)| left == *interface);
+            if !is_left && self.system.metadata().sliding.contains(interface) {
+                of_interface.push(None);
+            }
+            let longer = all.iter().flat_map(|begun| {
+                of_interface.iter().map(move |&choice| {
+                    let mut choices: Vec<Choice> = begun.clone();
+                    choices.push(choice);
+                    choices
+                })
+            });
+            all = longer.collect();
+        }
+        all
+    }
+
+    /// The interfaces that the point is on, by groups of those whose choices change how the fields fit
+    /// at one another.
+    fn groups(&self) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for &one in &self.on {
+            let mut group = vec![one];
+            for known in std::mem::take(&mut groups) {
+                if known.iter().any(|&other| self.are_coupled(one, other)) {
+                    group.extend(known);
+                } else {
+                    groups.push(known);
+                }
+            }
+            groups.push(group);
+        }
+        groups
+    }
+
+    /// Whether the choice at one of two interfaces changes how fast the field moves away from the
+    /// other one.
+    fn are_coupled(&self, one: usize, other: usize) -> bool {
+        let changes = |interface: usize, of: usize| {
+            [Side::Positive, Side::Negative].iter().any(|&own| {
+                let mut rates = [Side::Positive, Side::Negative].iter().map(|&choice| {
+                    let mut sides = self.sides.clone();
+                    (sides[interface], sides[of]) = (Some(own), Some(choice));
+                    let mode = self.settled(sides)?;
+                    Some(self.rate(mode, interface))
+                });
+                let first = rates.next();
+                rates.any(|rate| Some(rate) != first)
+            })
+        };
+        changes(one, other) || changes(other, one)
+    }
+
+    /// The interfaces of the point that bound a mode.
+    fn active(&self, mode: Sys::Region) -> Active {
+        let bounds = |&&interface: &&usize| self.system.side(mode, interface).is_some();
         let mut active = Active::default();
         let on = self.on.iter().filter(bounds);
         on.for_each(|&interface| active.insert(interface));
         active
     }
 
-    /// The regions that meet the point.
-    fn regions(&self) -> Vec<Sys::Region> {
-        if self.on.len() > MOST {
-            return Vec::new();
-        }
-        let mut sides = self.sides.clone();
-        let mut regions = Vec::new();
-        for choice in 0..1_usize << self.on.len() {
-            for (place, &interface) in self.on.iter().enumerate() {
-                sides[interface] = if choice >> place & 1 == 0 {
-                    Side::Positive
-                } else {
-                    Side::Negative
-                };
-            }
-            let region = self.settled(sides.clone());
-            regions.extend(region.filter(|region| !regions.contains(region)));
-        }
-        regions
-    }
-
-    /// The region on these sides; where switching functions depend on the sides of others, the
+    /// The mode on these sides; where switching functions depend on the sides of others, the
     /// sides of those that the point is not on are the ones that they have there.
-    fn settled(&self, mut sides: Vec<Side>) -> Option<Sys::Region> {
-        let mut region = self.system.region_on(&sides, Some(self.like))?;
+    fn settled(&self, mut sides: Vec<Choice>) -> Option<Sys::Region> {
+        let mut mode = self.system.region_on(&sides, Some(self.like))?;
         let metadata = self.system.metadata();
         for _ in 0..metadata.switches.len() {
             let mut is_settled = true;
@@ -130,62 +265,90 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
                 if self.on.contains(&interface) {
                     continue;
                 }
-                let reading = Reading::new(self.system, region, interface, self.t, self.x);
-                let found = Side::of(reading.value);
+                let reading = Reading::new(self.system, mode, interface, self.t, self.x);
+                let found = Some(Side::of(reading.value));
                 is_settled &= found == *side;
                 *side = found;
             }
             if is_settled {
                 break;
             }
-            region = self.system.region_on(&sides, Some(self.like))?;
+            mode = self.system.region_on(&sides, Some(self.like))?;
         }
-        Some(region)
+        Some(mode)
     }
 
-    /// The least dg/dt into a region among the interfaces that bound it at the point: its field leads
-    /// into it where that is positive.
-    fn inwards(&self, region: Sys::Region) -> f64 {
-        let rates = self.on.iter().filter_map(|&interface| {
-            let side = self.system.side(region, interface)?;
-            Some(self.rate(region, interface) * side.sign())
-        });
-        // a rate that is not a number leads nowhere
-        rates.fold(f64::INFINITY, |least, rate| {
-            if rate < least || rate.is_nan() {
-                rate
-            } else {
-                least
+    /// How the field of a mode fits to a choice at an interface: it leads to that side, or along the
+    /// interface.
+    fn fit(&self, mode: Sys::Region, interface: usize, choice: Choice) -> Fit {
+        match choice {
+            Some(side) if self.left == Some((interface, side)) => Fit::Fits,
+            Some(side) if self.system.side(mode, interface).is_some() => {
+                Fit::of(self.rate(mode, interface) * side.sign())
             }
-        })
+            Some(_) => Fit::Fits,
+            None => self.stays_on(mode, interface),
+        }
     }
 
-    fn rate(&self, region: Sys::Region, interface: usize) -> f64 {
-        Reading::new(self.system, region, interface, self.t, self.x).rate
+    /// Whether the ends of a sliding motion that belong to an interface are ahead of it.
+    fn stays_on(&self, mode: Sys::Region, interface: usize) -> Fit {
+        let metadata = self.system.metadata();
+        let own = metadata.ends.iter().enumerate().filter(|(_, end)| {
+            // the others tell of crossings during the motion
+            end.interface == interface && end.side.is_some()
+        });
+        let guards = own.map(|(number, _)| metadata.interfaces.len() + number);
+        let region = self.system.of_region(mode);
+        let ahead = guards.filter(|&guard| region.sides.get(guard).copied().flatten().is_some());
+        let readings = ahead.map(|guard| {
+            let reading = Reading::new(self.system, mode, guard, self.t, self.x);
+            if reading.is_zero() {
+                Fit::Open
+            } else {
+                Fit::of(reading.value)
+            }
+        });
+        readings.fold(Fit::Fits, Fit::and)
+    }
+
+    fn rate(&self, mode: Sys::Region, interface: usize) -> f64 {
+        Reading::new(self.system, mode, interface, self.t, self.x).rate
     }
 
     /// No field leads into its region.
     #[cold]
-    fn none(&self, regions: &[Sys::Region]) -> Error {
-        let [from, to] = regions else {
-            return self.error(ErrorKind::Intersection {
-                interfaces: self.interfaces(),
-            });
+    fn none(&self, modes: &[Sys::Region]) -> Error {
+        let is_open = |mode: &&Sys::Region| {
+            let on = self.on.iter();
+            on.filter(|&&one| self.system.slides_on(**mode, one))
+                .count()
+                == 0
         };
-        let differs = |&&one: &&usize| self.system.side(*from, one) != self.system.side(*to, one);
+        let open: Vec<Sys::Region> = modes.iter().filter(is_open).copied().collect();
+        let [from, to] = open[..] else {
+            return self.intersection();
+        };
+        let differs = |&&one: &&usize| self.system.side(from, one) != self.system.side(to, one);
         let interface = self.on.iter().find(differs).copied().unwrap_or_default();
-        let [from, to] = [*from, *to].map(|region| (region, self.rate(region, interface)));
+        let [from, to] = [from, to].map(|mode| (mode, self.rate(mode, interface)));
         stays(self.system, (from, to), interface, self.t, self.x)
     }
 
-    /// The fields of several regions lead into them.
+    /// The fields of several modes fit.
     #[cold]
-    fn several(&self, regions: &[Sys::Region]) -> Error {
-        let names = regions.iter();
-        let names = names.map(|&region| format!("`{}`", self.system.of_region(region).name));
+    fn several(&self, modes: impl Iterator<Item = Sys::Region>) -> Error {
+        let names = modes.map(|mode| format!("`{}`", mode_name(self.system, mode)));
         self.error(ErrorKind::Ambiguous {
             interfaces: self.interfaces(),
             regions: names.collect::<Vec<String>>().join(", "),
+        })
+    }
+
+    #[cold]
+    fn intersection(&self) -> Error {
+        self.error(ErrorKind::Intersection {
+            interfaces: self.interfaces(),
         })
     }
 
@@ -198,6 +361,25 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
 
     fn error(&self, kind: ErrorKind) -> Error {
         kind.at(self.t, self.x.as_slice(), "")
+    }
+}
+
+/// A region with the sides of switches, as in `everywhere (v > 0)`.
+fn mode_name<Sys: System<N>, const N: usize>(system: &Sys, mode: Sys::Region) -> String {
+    let metadata = system.metadata();
+    let side = |&interface: &usize| {
+        let sign = match system.side(mode, interface)? {
+            Side::Positive => ">",
+            Side::Negative => "<",
+        };
+        Some(format!("{} {sign} 0", metadata.interfaces.get(interface)?))
+    };
+    let sides: Vec<String> = metadata.switches.iter().filter_map(side).collect();
+    let name = system.of_region(mode).name;
+    if sides.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} ({})", sides.join(", "))
     }
 }
 

@@ -1,15 +1,8 @@
 //! The conditions under which the quantities of a region were proved to be conserved.
 
 use super::reading::Reading;
-use crate::contract::{Condition, Metadata, System, Vector};
+use crate::contract::{Condition, System, Vector};
 use crate::error::{Error, ErrorKind};
-
-/// The condition that the index of a guard behind those of the interfaces stands for.
-#[inline]
-pub(crate) fn condition(metadata: &Metadata, index: usize) -> Option<&'static Condition> {
-    let number = index.checked_sub(metadata.interfaces.len())?;
-    metadata.conditions.get(number)
-}
 
 /// Checks the conditions of a region that is entered at (t, x).
 ///
@@ -26,7 +19,7 @@ pub(crate) fn check_conditions<Sys: System<N>, const N: usize>(
         if condition.region != Sys::index(region) {
             continue;
         }
-        let index = metadata.interfaces.len() + number;
+        let index = metadata.first_condition() + number;
         let reading = Reading::new(system, region, index, t, x);
         let holds = !reading.is_zero() && (reading.value > 0.0 || condition.keeps_sign);
         if !holds || reading.value.is_nan() {

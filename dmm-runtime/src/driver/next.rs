@@ -24,23 +24,31 @@ pub(crate) struct Next<R, const N: usize> {
     pub(crate) active: Active,
 }
 
-/// What is behind a point of an interface, from a mode that is left at a rate: the mode whose field
-/// leads into it.
+/// What is behind a point of a guard, from a mode that is left at a rate: the mode whose field leads
+/// into it.
 pub(crate) fn enter<Sys: System<N>, const N: usize>(
     system: &Sys,
     (from, rate_from): (Sys::Region, f64),
-    interface: usize,
+    guard: usize,
     time: Time,
     state: &State<N>,
 ) -> Result<Next<Sys::Region, N>, Error> {
     let (t, x) = (time.value, &state.x);
     let metadata = system.metadata();
-    let ((to, rate_to), active, happened) = if let ([_], []) = (metadata.interfaces, metadata.free)
-    {
+    let end = metadata.end(guard);
+    let interface = end.map_or(guard, |end| end.interface);
+    let parts = (metadata.interfaces, metadata.free, metadata.sliding);
+    let ((to, rate_to), active, happened) = if let ([_], [], []) = parts {
         let to = across(system, (from, rate_from), interface, t, x)?;
         (to, Active::new(Some(interface)), None)
     } else {
-        let (to, active, happened) = around(system, (from, rate_from), interface, t, state)?;
+        let left = end.and_then(|end| Some((interface, end.side?)));
+        let met = Met {
+            interface,
+            rate: rate_from,
+            left,
+        };
+        let (to, active, happened) = around(system, from, &met, t, state)?;
         let after = happened.as_ref().map_or(x, |happened| &happened.state.x);
         let rate = Reading::new(system, to, interface, t, after).rate;
         ((to, rate), active, happened)
@@ -59,7 +67,7 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
         after,
         kind: match happened {
             Some(_) => TransitionKind::Jumped,
-            None => TransitionKind::Crossed,
+            None => kind(system, from, to),
         },
         interface,
         from,
@@ -75,6 +83,33 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
     })
 }
 
+/// What a change of the mode is that no event has made.
+fn kind<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    from: Sys::Region,
+    to: Sys::Region,
+) -> TransitionKind {
+    let mut sliding = system.metadata().sliding.iter();
+    let begins = |&&one: &&usize| system.slides_on(to, one) && !system.slides_on(from, one);
+    let ends = |&&one: &&usize| system.slides_on(from, one) && !system.slides_on(to, one);
+    if sliding.clone().any(|one| begins(&one)) {
+        TransitionKind::BeganToSlide
+    } else if sliding.any(|one| ends(&one)) {
+        TransitionKind::LeftSlide
+    } else {
+        TransitionKind::Crossed
+    }
+}
+
+/// What has been met.
+struct Met {
+    interface: usize,
+    /// The rate of its function, or of the end of a sliding motion.
+    rate: f64,
+    /// The interface that a sliding motion leaves, and the side.
+    left: Option<(usize, Side)>,
+}
+
 /// A mode, the interfaces that bound it at a point, and what has happened there.
 type Behind<R, const N: usize> = (R, Active, Option<Happened<R, N>>);
 
@@ -83,20 +118,30 @@ type Behind<R, const N: usize> = (R, Active, Option<Happened<R, N>>);
 #[inline(never)]
 fn around<Sys: System<N>, const N: usize>(
     system: &Sys,
-    (from, rate_from): (Sys::Region, f64),
-    interface: usize,
+    from: Sys::Region,
+    met: &Met,
     t: f64,
     state: &State<N>,
 ) -> Result<Behind<Sys::Region, N>, Error> {
     let x = &state.x;
+    let Met {
+        interface,
+        rate,
+        left,
+    } = *met;
     let in_region = |error: Error| error.in_region(system.of_region(from).name);
     // what is on the wrong side of an interface by rounding is on it
     let is_on = |one: usize, value: f64| {
         let side = system.side(from, one);
-        one == interface || side.is_some_and(|side| side != Side::of(value))
+        one == interface
+            || side.is_some_and(|side| side != Side::of(value))
+            || system.slides_on(from, one)
     };
-    let before = Around::new(system, from, t, x, is_on).map_err(in_region)?;
-    let met = (interface, rate_from);
+    let mut before = Around::new(system, from, t, x, is_on).map_err(in_region)?;
+    if let Some((interface, side)) = left {
+        before = before.leaving(interface, side);
+    }
+    let met = (interface, rate);
     let Some(happened) = happens(system, from, met, before.on(), t, state)? else {
         let (to, active) = before.entered().map_err(in_region)?;
         return Ok((to, active, None));

@@ -9,7 +9,7 @@
 //! again. Names are added to errors here; methods know none.
 
 use super::accumulation::Accumulation;
-use super::conditions::{condition, condition_error};
+use super::conditions::condition_error;
 use super::modes::Modes;
 use super::next::enter;
 use super::segment::{InMode, Segment};
@@ -162,7 +162,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         rate: f64,
     ) -> Result<Option<Transition<Sys::Region, N>>, Error> {
         let Cursor { time, state, .. } = &self.cursor;
-        if let Some(condition) = condition(system.metadata(), guard) {
+        if let Some(condition) = system.metadata().condition(guard) {
             let region = system.of_region(self.region).name;
             return Err(condition_error(condition, region, time.value, &state.x));
         }

@@ -52,10 +52,18 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
     let region = with_clocks(system, region, t, x)?;
     let mut on = Active::default();
     for interface in 0..system.metadata().interfaces.len() {
+        let reading = Reading::new(system, region, interface, t, x);
         let Some(side) = system.side(region, interface) else {
+            if system.slides_on(region, interface) && !reading.is_zero() {
+                return Err(ErrorKind::InvalidInput {
+                    what: "region",
+                    value: system.of_region(region).name.to_owned(),
+                    requirement: "the start does not lie on the interface that it slides on",
+                }
+                .into());
+            }
             continue;
         };
-        let reading = Reading::new(system, region, interface, t, x);
         let (value, rate) = (side.sign() * reading.value, side.sign() * reading.rate);
         if reading.is_zero() || value < 0.0 && -value <= moment * rate {
             if rate <= 0.0 {

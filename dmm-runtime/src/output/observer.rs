@@ -29,6 +29,10 @@ pub enum TransitionKind {
     Crossed,
     /// An event has changed states or discrete states.
     Jumped,
+    /// The solution goes on along an interface: where it was not on it, or on one more than before.
+    BeganToSlide,
+    /// The solution leaves an interface that it was sliding on.
+    LeftSlide,
 }
 
 /// A crossing of an interface, or an event at one (both are "events" in other libraries).

@@ -2,10 +2,10 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use dmm_compiler::model::Sign;
+use dmm_compiler::model::{self, Sign};
 use dmm_compiler::program;
 
-use crate::contract::{Condition, Event, Metadata, RegionMetadata, Side};
+use crate::contract::{Condition, Event, Metadata, RegionMetadata, Side, SlideEnd};
 
 /// What is kept so far.
 static KEPT: Mutex<Vec<&'static Metadata>> = Mutex::new(Vec::new());
@@ -24,6 +24,8 @@ pub(super) fn kept(names: &program::Metadata) -> &'static Metadata {
         discrete: texts(&names.discrete),
         free: leaked(names.free.iter().copied()),
         switches: leaked(names.switches.iter().copied()),
+        sliding: leaked(names.sliding.iter().copied()),
+        ends: leaked(names.ends.iter().map(end)),
         events: leaked(names.events.iter().map(event)),
         conditions: leaked(names.conditions.iter().map(condition)),
         regions: leaked(names.regions.iter().map(region)),
@@ -42,6 +44,8 @@ fn are_same(known: &Metadata, names: &program::Metadata) -> bool {
         && known.discrete == names.discrete
         && known.free == names.free
         && known.switches == names.switches
+        && known.sliding == names.sliding
+        && known.ends.iter().copied().eq(names.ends.iter().map(end))
         && known
             .events
             .iter()
@@ -59,6 +63,8 @@ fn are_same(known: &Metadata, names: &program::Metadata) -> bool {
             known.name == names.name
                 && known.conserved == names.conserved
                 && known.neighbours == names.neighbours
+                && known.on == names.on
+                && known.may_slide == names.may_slide
                 && known
                     .sides
                     .iter()
@@ -72,6 +78,13 @@ pub(super) fn side(sign: Sign) -> Side {
     match sign {
         Sign::Negative => Side::Negative,
         Sign::Positive => Side::Positive,
+    }
+}
+
+fn end(one: &model::SlideEnd) -> SlideEnd {
+    SlideEnd {
+        interface: one.interface,
+        side: one.side.map(side),
     }
 }
 
@@ -100,6 +113,8 @@ fn region(one: &program::RegionMetadata) -> RegionMetadata {
         conserved: texts(&one.conserved),
         sides: leaked(one.sides.iter().map(|sign| sign.map(side))),
         neighbours: leaked(one.neighbours.iter().copied()),
+        on: leaked(one.on.iter().copied()),
+        may_slide: leaked(one.may_slide.iter().copied()),
     }
 }
 

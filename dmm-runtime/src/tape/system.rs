@@ -160,12 +160,13 @@ impl<const N: usize, const M: usize> Tape<N, M> {
     /// Parameter number `index` or, behind the parameters, what is constant in a mode.
     fn constant(&self, mode: TapeMode, index: usize) -> f64 {
         let behind = |place: usize| {
-            let discrete = self.code.metadata.discrete.len();
-            mode.constant(if place < discrete {
-                place
-            } else {
-                place - discrete + MOST_DISCRETE
-            })
+            let Metadata { discrete, free, .. } = self.code.metadata;
+            let place = match place.checked_sub(discrete.len()) {
+                None => place,
+                Some(side) if side < free.len() => MOST_DISCRETE + side,
+                Some(slide) => MOST_DISCRETE + MOST_FREE + slide - free.len(),
+            };
+            mode.constant(place)
         };
         let parameter = self.parameters.get(index).copied();
         parameter.unwrap_or_else(|| behind(index - self.parameters.len()))
@@ -203,13 +204,17 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
         region.region.0
     }
 
-    fn region_on(&self, sides: &[Side], like: Option<TapeMode>) -> Option<TapeMode> {
+    fn region_on(&self, sides: &[Option<Side>], like: Option<TapeMode>) -> Option<TapeMode> {
         let region = self.region(self.code.metadata.region_on(sides)?)?;
         Some(region.on(self.code.metadata, sides, like))
     }
 
     fn side(&self, region: TapeMode, interface: usize) -> Option<Side> {
         region.side(self.code.metadata, region.region.0, interface)
+    }
+
+    fn slides_on(&self, region: TapeMode, interface: usize) -> bool {
+        region.slides_on(self.code.metadata, region.region.0, interface)
     }
 
     fn constants(region: TapeMode) -> Vec<f64> {

@@ -253,7 +253,7 @@ fn a_neuron_fires_at_its_rate() -> Result<(), Error> {
 fn a_mode_can_be_named_at_the_start() -> Result<(), Failure> {
     let thermostat = Thermostat::default();
     let off = Mode::<_, 1, 2> {
-        sides: [Side::Positive, Side::Negative],
+        sides: [Some(Side::Positive), Some(Side::Negative)],
         ..Mode::new(ThermostatRegion::Everywhere, [0.0])
     };
     let solution = Integrator::new(&thermostat, Best::tolerance(1e-12))

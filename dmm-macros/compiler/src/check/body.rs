@@ -103,6 +103,7 @@ impl<'d> Resolver<'d> {
             | Item::Function(_)
             | Item::Discrete(_)
             | Item::Interface(_)
+            | Item::Sliding(_)
             | Item::Region(_) => {}
         }
     }

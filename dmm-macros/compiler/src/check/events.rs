@@ -164,6 +164,8 @@ impl<'d> Resolver<'d> {
             side: Model::side_of(&ident),
             ident,
             is_switch: false,
+            slides: false,
+            end: None,
             switching_function,
             span,
         }));

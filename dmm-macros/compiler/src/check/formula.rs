@@ -64,9 +64,13 @@ impl<'d> Resolver<'d> {
             }
             ExpressionKind::If {
                 condition,
+                slides,
                 then,
                 otherwise,
-            } => self.branch(formula, condition, [then, otherwise], allowed),
+            } => {
+                let parts = [then.as_ref(), otherwise.as_ref()];
+                self.branch(formula, (condition, *slides), parts, allowed)
+            }
             ExpressionKind::Sum {
                 variable,
                 range,

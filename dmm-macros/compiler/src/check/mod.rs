@@ -44,7 +44,7 @@ use crate::algebra::Id;
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::check as codes;
 use crate::model::{Interface, Model};
-use crate::syntax::{Declaration, Definition, Item};
+use crate::syntax::{Declaration, Definition, InterfaceItem, Item};
 use budget::Budget;
 use evaluator::{Evaluator, Value};
 use groups::MOST_STATES;
@@ -71,6 +71,7 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
                 interfaces,
                 discrete,
                 events,
+                sliding,
                 ..
             },
         reporter: Reporter { diagnostics, .. },
@@ -88,6 +89,7 @@ pub fn resolve(declaration: Declaration, diagnostics: &mut Diagnostics) -> Optio
         discrete,
         events,
         regions,
+        sliding,
         source,
     })
 }
@@ -136,6 +138,7 @@ impl<'d> Resolver<'d> {
                 Item::Discrete(item) => self.discrete(item),
                 Item::Event(_)
                 | Item::Region(_)
+                | Item::Sliding(_)
                 | Item::Derivative(_)
                 | Item::Conserved(_)
                 | Item::Hamiltonian(_)
@@ -166,12 +169,16 @@ impl<'d> Resolver<'d> {
         }
     }
 
-    fn interface(&mut self, interface: &'d Definition) {
+    fn interface(&mut self, item: &'d InterfaceItem) {
+        let interface = &item.definition;
         let value = self.formula(&interface.formula, Allowed::All);
         if !self.scope.names.is_first(&interface.ident, Kind::Interface) {
             return;
         }
-        let resolved = value.and_then(|value| self.switching(interface, value.id));
+        let mut resolved = value.and_then(|value| self.switching(interface, value.id));
+        if let Some(interface) = &mut resolved {
+            interface.slides = item.slides;
+        }
         self.regions.interfaces.push(resolved);
     }
 
@@ -195,6 +202,8 @@ impl<'d> Resolver<'d> {
             label: None,
             side: Model::side_of(&interface.ident),
             is_switch: false,
+            slides: false,
+            end: None,
             switching_function: g,
             span: interface.formula.extent,
         })

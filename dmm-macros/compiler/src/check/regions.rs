@@ -10,8 +10,8 @@ use super::body::Body;
 use crate::algebra::Id;
 use crate::diagnostics::Extent;
 use crate::diagnostics::catalogue::check as codes;
-use crate::model::{Discrete, Event, Interface, Parameter, Region, Side, State};
-use crate::syntax::{Declaration, Item, RegionItem};
+use crate::model::{Discrete, Event, Interface, Parameter, Region, Side, Sliding, State};
+use crate::syntax::{Declaration, Item, RegionItem, SlidingItem};
 
 /// The region of a system without interface.
 const EVERYWHERE: &str = "everywhere";
@@ -27,6 +27,7 @@ pub(super) struct Regions {
     pub(super) events: Vec<Event>,
     /// By interface; nothing where its formula is wrong.
     pub(super) interfaces: Vec<Option<Interface>>,
+    pub(super) sliding: Vec<Sliding>,
     /// Whether a region is missing, and with it whatever it would use.
     pub(super) lacks_region: bool,
 }
@@ -49,6 +50,11 @@ impl<'d> Resolver<'d> {
             .map(|item| (self.sides(item), self.region(item, &shared)))
             .collect();
         self.patterns(declaration, &items);
+        for item in &declaration.items {
+            if let Item::Sliding(item) = item {
+                self.sliding(item);
+            }
+        }
         if items.is_empty() {
             return self.everywhere(declaration, shared).into_iter().collect();
         }
@@ -65,6 +71,29 @@ impl<'d> Resolver<'d> {
         regions
     }
 
+    /// What holds while a solution slides on an interface.
+    fn sliding(&mut self, item: &'d SlidingItem) {
+        let mut body = Body::new(self.regions.states.len()).in_region(&item.interface);
+        let items: Vec<&Item> = item.items.iter().collect();
+        self.items(&items, &mut body);
+        let Some(interface) = self.interface_named(&item.interface, "sliding name { … }") else {
+            return;
+        };
+        let known = self.regions.interfaces.get(interface);
+        let known = known.and_then(Option::as_ref);
+        if known.is_some_and(|known| !known.slides) {
+            let message = format!(
+                "nothing slides on `{0}`: declare `interface {0} = …, sliding;`",
+                item.interface
+            );
+            self.report(codes::NO_SLIDING, &item.interface, message);
+        }
+        self.regions.sliding.push(Sliding {
+            interface,
+            conserved: body.conserved,
+        });
+    }
+
     /// Leaves out the interfaces that bound no region and have no event: nothing switches there.
     fn drop_unused_interfaces(&mut self, regions: &mut [Region]) {
         let interfaces = std::mem::take(&mut self.regions.interfaces);
@@ -77,6 +106,10 @@ impl<'d> Resolver<'d> {
                 side.interface = number;
             }
             is_used |= interface.as_ref().is_some_and(|one| one.is_switch);
+            let sliding = self.regions.sliding.iter_mut();
+            for sliding in sliding.filter(|sliding| sliding.interface == index) {
+                sliding.interface = number;
+            }
             let events = self.regions.events.iter_mut();
             for event in events.filter(|event| event.interface == index) {
                 is_used = true;
@@ -236,5 +269,6 @@ fn finished(
         field_spans,
         conserved: body.conserved,
         canonical: body.canonical,
+        slide: None,
     }
 }

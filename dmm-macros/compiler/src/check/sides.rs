@@ -98,7 +98,7 @@ impl Resolver<'_> {
     /// The sign patterns of the regions cover the space, and no two of them overlap.
     pub(super) fn patterns(&mut self, declaration: &Declaration, items: &[&RegionItem]) {
         let interfaces = declaration.items.iter().filter_map(|item| match item {
-            Item::Interface(item) => Some(&item.ident),
+            Item::Interface(item) => Some(&item.definition.ident),
             _ => None,
         });
         let interfaces: Vec<&Ident> = interfaces.collect();

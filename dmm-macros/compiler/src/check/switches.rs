@@ -30,7 +30,7 @@ impl<'d> Resolver<'d> {
     pub(super) fn branch(
         &mut self,
         formula: &'d Expression,
-        condition: &'d Comparison,
+        (condition, slides): (&'d Comparison, bool),
         [then, otherwise]: [&'d Expression; 2],
         allowed: Allowed,
     ) -> Option<Value> {
@@ -47,7 +47,12 @@ impl<'d> Resolver<'d> {
         for (part, value) in [(then, then_value), (otherwise, otherwise_value)] {
             self.has_value_everywhere(part, value)?;
         }
-        self.switch(formula, g, then_value, otherwise_value)
+        let value = self.switch(formula, g, then_value, otherwise_value)?;
+        let known = self.regions.interfaces.iter_mut().flatten();
+        for interface in known.filter(|one| slides && one.switching_function == g.id) {
+            interface.slides = true;
+        }
+        Some(value)
     }
 
     /// `abs(u)` and the like, if `name` is such a function and nothing else.
@@ -169,6 +174,8 @@ impl<'d> Resolver<'d> {
             label: Some(label),
             side,
             is_switch: true,
+            slides: false,
+            end: None,
             switching_function: g,
             span: formula.extent,
         }));

@@ -117,8 +117,16 @@ fn sides(scheme: &Scheme) -> Vec<Vec<(usize, GuardSide)>> {
         let bounds = |interface: usize| region.sides.iter().any(|one| one.interface == interface);
         let fixed = region.sides.iter();
         let fixed = fixed.map(|one| (one.interface, GuardSide::Fixed(one.sign)));
-        let free = free.iter().enumerate().filter(|(_, one)| !bounds(**one));
-        let free = free.map(|(place, &one)| (one, GuardSide::Free(first + place)));
+        let slide = region.slide.as_ref();
+        let slides = |one: usize| slide.is_some_and(|slide| slide.on.contains(&one));
+        let in_place = |one: usize| {
+            let mut switches = slide.iter().flat_map(|slide| &slide.switches);
+            let masked = switches.find(|(interface, _)| *interface == one);
+            masked.map_or(one, |&(_, masked)| masked)
+        };
+        let free = free.iter().enumerate();
+        let free = free.filter(|(_, one)| !bounds(**one) && !slides(**one));
+        let free = free.map(|(place, &one)| (in_place(one), GuardSide::Free(first + place)));
         let conditions = conditions(scheme)
             .filter(|(_, condition)| condition.region == index)
             .map(|(number, _)| (number, GuardSide::Fixed(Sign::Positive)));

@@ -1,7 +1,7 @@
 //! What a machine is told of a system besides its functions: names, and where the regions lie.
 
 use crate::algebra::Id;
-use crate::model::{self, Interface, Model, Region, Sign, plain_text};
+use crate::model::{self, Interface, Model, Region, Sign, SlideEnd, plain_text};
 use crate::scheme::Scheme;
 
 /// The names in a system, and where its regions lie.
@@ -21,6 +21,10 @@ pub struct Metadata {
     pub free: Vec<usize>,
     /// Those of them that formulas switch at.
     pub switches: Vec<usize>,
+    /// The interfaces that solutions may slide on.
+    pub sliding: Vec<usize>,
+    /// The ends of sliding motions, which guards behind the interfaces stand for.
+    pub ends: Vec<SlideEnd>,
     /// What happens in an instant.
     pub events: Vec<Event>,
     /// The conditions of proofs that a run has to check.
@@ -69,6 +73,10 @@ pub struct RegionMetadata {
     /// The index of the region on the other side of each interface that bounds it, where it is the
     /// only one.
     pub neighbours: Vec<Option<usize>>,
+    /// The interfaces that it slides on.
+    pub on: Vec<usize>,
+    /// The switches that it slides on or not.
+    pub may_slide: Vec<usize>,
 }
 
 impl Metadata {
@@ -88,13 +96,20 @@ impl Metadata {
             parameters: (model.parameters.iter())
                 .map(|one| text(&one.name))
                 .collect(),
-            interfaces: model.interfaces.iter().map(Interface::name).collect(),
+            interfaces: model.real_interfaces().map(Interface::name).collect(),
             discrete: (model.discrete.iter())
                 .map(|one| plain_text(&one.ident))
                 .collect(),
             free: model.free_interfaces(),
             switches: (model.free_interfaces().into_iter())
                 .filter(|&index| model.interfaces[index].is_switch)
+                .collect(),
+            sliding: (model.interfaces.iter().enumerate())
+                .filter(|(_, interface)| interface.slides)
+                .map(|(index, _)| index)
+                .collect(),
+            ends: (model.interfaces.iter())
+                .filter_map(|interface| interface.end)
                 .collect(),
             events: model
                 .events
@@ -139,6 +154,7 @@ impl RegionMetadata {
             let mut across = own.clone();
             *across.get_mut(interface)? = Some(own.get(interface)?.as_ref()?.opposite());
             let others = model.regions.iter().enumerate();
+            let others = others.filter(|(_, other)| other.slide.is_none());
             let mut others = others.filter(|(_, other)| overlap(&across, &sides(other)));
             let (only, _) = others.next()?;
             others.next().is_none().then_some(only)
@@ -150,6 +166,12 @@ impl RegionMetadata {
                 .collect(),
             neighbours: (0..own.len()).map(neighbour).collect(),
             sides: own,
+            on: (region.slide.iter())
+                .flat_map(|slide| slide.on.iter().copied())
+                .collect(),
+            may_slide: (region.slide.iter())
+                .flat_map(|slide| slide.switches.iter().map(|&(interface, _)| interface))
+                .collect(),
         }
     }
 }

@@ -31,6 +31,10 @@ pub(super) fn examine(
         conditions(dag, place, &formulas)?;
         return Ok(Conservation::ByConstruction);
     }
+    if psi.claim == Claim::Mean {
+        conditions(dag, place, &formulas)?;
+        return Ok(Conservation::ByConstruction);
+    }
     let residual = quantity.derivatives.rate(dag, &region.field);
     let (verdict, formulas) = decide_by_sides(dag, variables, place, residual, formulas);
     let roots: Vec<Id> = formulas.iter().copied().chain([residual]).collect();

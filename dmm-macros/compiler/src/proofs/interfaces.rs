@@ -5,17 +5,21 @@ use super::Derivatives;
 use super::message::InterfaceProblem;
 use crate::algebra::evaluate::Interval;
 use crate::algebra::{Dag, Id, is_proved_zero, normalise};
-use crate::model::{Region, Sign};
+use crate::model::{Interface, Region, Sign};
 
 /// By region, what is known of the rate of interface number `index`; or that the interface is
 /// constant, or that no trajectory crosses it.
 pub(super) fn examine(
     dag: &mut Dag,
-    index: usize,
+    (index, interface): (usize, &Interface),
     derivatives: &Derivatives,
     regions: &[Region],
 ) -> Result<Vec<Rate>, InterfaceProblem> {
     let is_zero = |id: Id| is_proved_zero(dag, id);
+    if interface.end.is_some() {
+        // a motion may last for ever
+        return Ok(vec![Rate::Unknown; regions.len()]);
+    }
     if derivatives.gradient.iter().copied().all(is_zero) && is_zero(derivatives.time_derivative) {
         return Err(InterfaceProblem::Constant);
     }
@@ -38,7 +42,7 @@ pub(super) fn examine(
         };
         sides.len() == rates.len() && sides.iter().all(holds)
     };
-    if all(Rate::NotPositive, Rate::NotNegative) {
+    if all(Rate::NotPositive, Rate::NotNegative) && !interface.slides {
         return Err(InterfaceProblem::AlwaysSliding);
     }
     if all(Rate::NotNegative, Rate::NotPositive) {

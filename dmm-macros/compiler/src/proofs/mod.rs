@@ -38,8 +38,9 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Dag, Id, Name, is_proved_zero};
 use crate::diagnostics::Diagnostics;
-use crate::model::{Model, Region, Sign, sides as sides_of};
+use crate::model::{Claim, Model, Region, Sign, sides as sides_of};
 pub use interfaces::Rate;
+use message::RegionProblem;
 pub use proved::{
     Conservation, Derivatives, DomainCondition, Independence, Proved, ProvedInterface, ProvedRegion,
 };
@@ -55,8 +56,9 @@ pub fn prove(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Proved> 
         regions,
         ..
     } = &mut model;
-    let proved: Vec<Option<ProvedRegion>> = (regions.iter())
+    let proved: Vec<Option<ProvedRegion>> = (regions.iter_mut())
         .map(|region| {
+            leave_out_dependent(dag, &variables, region);
             let sides = sides_of(interfaces, region);
             let place = Place { region, sides };
             region_proofs(dag, &variables, &place, diagnostics)
@@ -65,7 +67,7 @@ pub fn prove(mut model: Model, diagnostics: &mut Diagnostics) -> Option<Proved> 
     let mut proved_interfaces = Vec::new();
     for (index, interface) in interfaces.iter().enumerate() {
         let derivatives = Derivatives::of(dag, interface.switching_function, &variables.states);
-        match interfaces::examine(dag, index, &derivatives, regions) {
+        match interfaces::examine(dag, (index, interface), &derivatives, regions) {
             Ok(rates) => proved_interfaces.push(ProvedInterface { derivatives, rates }),
             Err(problem) => problem.report(interface, diagnostics),
         }
@@ -104,6 +106,24 @@ pub fn domain(
         }
     }
     conditions::domain(&mut model.dag, &formulas, &sides, &BTreeSet::new()).conditions
+}
+
+/// Leaves out what a sliding motion conserves because its functions g are zero: what depends on them.
+fn leave_out_dependent(dag: &mut Dag, variables: &Variables, region: &mut Region) {
+    while region.slide.is_some() {
+        let quantities = region.conserved.iter();
+        let quantities = quantities.map(|psi| Quantity::new(dag, &variables.states, psi.psi));
+        let quantities: Vec<Quantity> = quantities.collect();
+        let row = match independence::examine(dag, variables, &quantities) {
+            Err(RegionProblem::Dependent { row }) => row,
+            Err(_) => region.conserved.len().saturating_sub(1),
+            Ok(_) => return,
+        };
+        if region.conserved.get(row).map(|psi| psi.claim) != Some(Claim::Mean) {
+            return;
+        }
+        region.conserved.remove(row);
+    }
 }
 
 /// What is known of the conserved quantities of a region and of their independence; nothing if
@@ -173,6 +193,11 @@ impl Variables {
         let switches: Vec<(Name, Id)> = model.switches().map(|name| (name.clone(), one)).collect();
         let parameters = parameters.chain(discrete).chain(switches.iter().cloned());
         let parameters: Vec<(Name, Id)> = parameters.collect();
+        let slides = model.interfaces.iter().map(Model::slide_of);
+        let slides: Vec<Name> = slides.filter(|_| model.switches_slide()).collect();
+        let parameters = (parameters.into_iter())
+            .chain(slides.into_iter().map(|name| (name, one)))
+            .collect::<Vec<(Name, Id)>>();
         let switches = switches.into_iter().map(|(name, _)| name).collect();
         let all = states
             .iter()

@@ -85,7 +85,8 @@ impl Derivatives {
 pub enum Conservation {
     /// ∂ₜψ + ∇ψ·f = 0 was proved, wherever the conditions hold.
     Proved(Vec<DomainCondition>),
-    /// It is a Hamiltonian without explicit time, and f was made from it.
+    /// It is a Hamiltonian without explicit time, and f was made from it; or f is a mean of fields that
+    /// conserve it.
     ByConstruction,
     /// It could not be proved, and `assume` accepts it.
     Assumed {

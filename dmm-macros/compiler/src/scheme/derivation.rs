@@ -71,6 +71,7 @@ fn derive_region(
         discrete_multiplier: &discrete_multiplier,
         discrete_time_derivative: &discrete_time_derivative,
         canonical: &region.canonical,
+        may_vanish: (region.slide.as_ref()).is_some_and(|slide| !slide.switches.is_empty()),
     };
     let (strategy, refusals) = choose(dag, &context);
     let sides = sides(&model.interfaces, region);

@@ -34,8 +34,10 @@ pub enum Item {
     Function(FunctionItem),
     /// `discrete u = 1;`
     Discrete(Definition),
-    /// `interface wall = y;`
-    Interface(Definition),
+    /// `interface wall = y;`, `interface belt = v - 1, sliding;`
+    Interface(InterfaceItem),
+    /// `sliding belt { conserved … }`
+    Sliding(SlidingItem),
     /// `on wall falling { v = -v; }`, `every 2 { … }`, `at 3 { … }`
     Event(EventItem),
     /// `region above where wall > 0 { … }`
@@ -77,6 +79,24 @@ pub enum Defaults {
     Same(Expression),
     /// `= [formula, formula]`: an element each. Only a group has it.
     Each(Vec<Expression>, Extent),
+}
+
+/// `name = formula`, or `name = formula, sliding`
+#[derive(Debug, Clone)]
+pub struct InterfaceItem {
+    /// Its name and switching function.
+    pub definition: Definition,
+    /// Whether a solution may slide on it.
+    pub slides: bool,
+}
+
+/// `sliding belt { … }`: what holds of the motion on an interface.
+#[derive(Debug, Clone)]
+pub struct SlidingItem {
+    /// The interface's name.
+    pub interface: Ident,
+    /// `conserved` items.
+    pub items: Vec<Item>,
 }
 
 /// `name = formula`

@@ -4,8 +4,8 @@ use proc_macro2::Ident;
 use syn::parse::ParseStream;
 use syn::{Attribute, Token, parenthesized, token};
 
-use super::{Definition, Derivative, Expression, Target};
-use super::{documentation, formula, instead, mistake, name, target};
+use super::{Definition, Derivative, Expression, InterfaceItem, Target};
+use super::{documentation, formula, mistake, name, target};
 use crate::diagnostics::catalogue::syntax::{
     ASSUME, DERIVATIVE, EQUALS, FUNCTION, GROUP, NAME, ONE_DEFINITION, SEMICOLON, TYPE, UNEXPECTED,
 };
@@ -58,23 +58,21 @@ pub(super) fn list(
     }
 }
 
-/// `name = g;`
+/// `name = g;`, `name = g, sliding;`
 pub(super) fn interface(
     input: ParseStream<'_>,
     attributes: Vec<Attribute>,
-) -> syn::Result<Definition> {
+) -> syn::Result<InterfaceItem> {
     let ident = name::declared(input)?;
     let formula = defined(input, "interface", &ident)?;
-    if input.peek(Token![,]) {
+    let slides = input.peek(Token![,]);
+    if slides {
         input.parse::<Token![,]>()?;
-        let word = name::peek_word(input).map(|word| word.to_string());
-        return Err(match word.as_deref().and_then(instead::not_yet) {
-            Some((code, message)) => code.error(input.span(), message),
-            None => {
-                let message = "expected `;`: each interface has an `interface` item of its own";
-                ONE_DEFINITION.error(input.span(), message)
-            }
-        });
+        if !name::peek_is(input, "sliding") {
+            let message = "expected `sliding;` or, in place of the comma, `;`: each interface has an `interface` item of its own";
+            return Err(ONE_DEFINITION.error(input.span(), message));
+        }
+        name::skip_one(input);
     }
     if mistake::at_comparison(input) {
         let message = format!(
@@ -83,11 +81,12 @@ pub(super) fn interface(
         return Err(UNEXPECTED.error(input.span(), message));
     }
     after_formula(input, &formula, false)?;
-    Ok(Definition {
+    let definition = Definition {
         attributes,
         ident,
         formula,
-    })
+    };
+    Ok(InterfaceItem { definition, slides })
 }
 
 /// `name = ψ;`

@@ -56,10 +56,12 @@ pub enum ExpressionKind {
         /// The term.
         term: Box<Expression>,
     },
-    /// `if a > b { then } else { otherwise }`
+    /// `if a > b { then } else { otherwise }`, `if a > b sliding { … } else { … }`
     If {
         /// What decides.
         condition: Box<Comparison>,
+        /// Whether a solution may slide where the two are equal.
+        slides: bool,
         /// The value where it holds.
         then: Box<Expression>,
         /// The value where it does not.
@@ -129,6 +131,7 @@ impl Expression {
                 condition,
                 then,
                 otherwise,
+                ..
             } => {
                 let parts = [&condition.left, &condition.right, then, otherwise];
                 parts.map(|part| part.height).into_iter().max().unwrap_or(0)

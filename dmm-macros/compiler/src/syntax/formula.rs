@@ -216,6 +216,10 @@ fn branch(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<
         let message = "one comparison decides: put a branch into another one";
         return Err(BRANCH.error(input.span(), message));
     }
+    let slides = name::peek_is(input, "sliding");
+    if slides {
+        name::skip_one(input);
+    }
     let block = |input: ParseStream<'_>| -> syn::Result<(Expression, Span)> {
         if !input.peek(token::Brace) {
             return Err(BRANCH.error(input.span(), FORM));
@@ -247,6 +251,7 @@ fn branch(input: ParseStream<'_>, ident: &Ident, nesting: usize) -> syn::Result<
     };
     let kind = ExpressionKind::If {
         condition: Box::new(condition),
+        slides,
         then: Box::new(then),
         otherwise: Box::new(otherwise),
     };

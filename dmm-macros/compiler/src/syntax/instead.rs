@@ -1,20 +1,11 @@
 //! Words of other languages, and what there is instead.
 //!
-//! One table for items, [`ITEMS`], with the words for what the language does not have yet in a
-//! table of its own, [`NOT_YET`].
+//! One table for items, [`ITEMS`].
 
 use crate::diagnostics::Code;
 use crate::diagnostics::catalogue::syntax::{
-    BRANCH, DERIVATIVE, INITIAL_VALUE, NOT_YET as NOT_YET_CODE, ONE_SYSTEM, TYPE, UNKNOWN_ITEM,
+    BRANCH, DERIVATIVE, INITIAL_VALUE, ONE_SYSTEM, TYPE, UNKNOWN_ITEM,
 };
-
-/// What the language does not have yet: the words for it, and what can be done meanwhile.
-const NOT_YET: &[(&[&str], &str)] = &[(
-    &[
-        "sliding", "slide", "slides", "stick", "stiction", "filippov",
-    ],
-    "sliding is not supported yet: a trajectory crosses an interface or stops with an error",
-)];
 
 /// What is said of an item that begins with another language's word for it.
 enum Instead {
@@ -30,6 +21,13 @@ const INTEGRATOR: &str = "how it is integrated is not declared: methods, toleran
 
 /// The words with which items of other languages begin.
 const ITEMS: &[(&[&str], Instead)] = &[
+    (
+        &["slide", "slides", "stick", "stiction", "filippov"],
+        Advice(
+            UNKNOWN_ITEM,
+            "a solution may slide where that is declared: `interface belt = v - 1, sliding;`, or `if v > 1 sliding { … } else { … }`",
+        ),
+    ),
     (
         &["parameter", "parameters", "params", "parm"],
         Word("param"),
@@ -268,9 +266,6 @@ const ITEMS: &[(&[&str], Instead)] = &[
 
 /// What is said of the item that begins with `word`, if it is a word of another language.
 pub(super) fn of_item(word: &str) -> Option<(Code, String)> {
-    if let Some(known) = not_yet(word) {
-        return Some(known);
-    }
     let (_, instead) = ITEMS.iter().find(|(words, _)| words.contains(&word))?;
     Some(match instead {
         Word(instead) => (
@@ -280,12 +275,6 @@ pub(super) fn of_item(word: &str) -> Option<(Code, String)> {
         Advice(UNKNOWN_ITEM, advice) => (UNKNOWN_ITEM, format!("unknown item `{word}`: {advice}")),
         Advice(code, advice) => (*code, (*advice).to_owned()),
     })
-}
-
-/// What is said of `word` where it stands for something that is not there yet.
-pub(super) fn not_yet(word: &str) -> Option<(Code, String)> {
-    let (_, advice) = NOT_YET.iter().find(|(words, _)| words.contains(&word))?;
-    Some((NOT_YET_CODE, (*advice).to_owned()))
 }
 
 /// What is said of a formula that switches by `word`.
@@ -308,7 +297,6 @@ mod tests {
     #[test]
     fn every_word_stands_once_and_is_none_of_the_language() {
         let words = ITEMS.iter().map(|(words, _)| *words);
-        let words = words.chain(NOT_YET.iter().map(|(words, _)| *words));
         let mut all: Vec<&str> = words.flatten().copied().collect();
         all.sort_unstable();
         let twice: Vec<_> = all.windows(2).filter(|pair| pair[0] == pair[1]).collect();

@@ -6,9 +6,11 @@ use syn::{Attribute, Token, braced, token};
 
 use super::definition::{conserved, definitions, derivative, interface};
 use super::place::Place;
-use super::{ConservedItem, Definition, ForItem, Item, RegionItem};
+use super::{ConservedItem, Definition, ForItem, Item, RegionItem, SlidingItem};
 use super::{canonical, condition, documentation, event, formula, group, mistake, name, unknown};
-use crate::diagnostics::catalogue::syntax::{ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, REGION};
+use crate::diagnostics::catalogue::syntax::{
+    ASSUME, ATTRIBUTE, DEPTH, LOOP, NAME, REGION, SLIDING,
+};
 use crate::diagnostics::{Diagnostics, Extent};
 
 /// Loops may be nested this deep.
@@ -105,6 +107,7 @@ fn behind_keyword(
         "discrete" => return list(Item::Discrete),
         "interface" => Item::Interface(interface(input, attributes)?),
         "region" => Item::Region(region(input, attributes, diagnostics)?),
+        "sliding" => Item::Sliding(sliding(input, diagnostics)?),
         "der" => Item::Derivative(derivative(input, attributes)?),
         "hamiltonian" => Item::Hamiltonian(canonical::hamiltonian(input, attributes)?),
         "conserved" => Item::Conserved(ConservedItem {
@@ -129,6 +132,22 @@ fn assumed(input: ParseStream<'_>, attributes: Vec<Attribute>) -> syn::Result<Co
         definition: conserved(input, attributes)?,
         assumed: true,
     })
+}
+
+/// `interface { conserved … }`
+fn sliding(input: ParseStream<'_>, diagnostics: &mut Diagnostics) -> syn::Result<SlidingItem> {
+    const FORM: &str = "what holds while a solution slides stands in a block of its interface, as in `sliding belt { conserved energy = …; }`";
+    if name::peek_word(input).is_none() {
+        return Err(SLIDING.error(input.span(), FORM));
+    }
+    let interface = name::declared(input)?;
+    if !input.peek(token::Brace) {
+        return Err(SLIDING.error(input.span(), FORM));
+    }
+    let body;
+    braced!(body in input);
+    let items = items(&body, Place::Sliding, diagnostics);
+    Ok(SlidingItem { interface, items })
 }
 
 /// `name where … { … }`

@@ -9,7 +9,8 @@
 //!           | "param" group "=" default ("," group "=" default)* ";"
 //!           | ("const" | "let") name "=" formula ("," name "=" formula)* ";"
 //!           | "fn" name "(" name ("," name)* ")" "=" formula ";"
-//!           | "interface" name "=" formula ";"
+//!           | "interface" name "=" formula ["," "sliding"] ";"
+//!           | "sliding" name "{" item* "}"
 //!           | "region" name ["where" side ("and" side)*] "{" item* "}"
 //!           | "der" "(" target ")" "=" formula ";"
 //!           | "hamiltonian" name "=" formula "in" pair ("," pair)* ";"
@@ -32,7 +33,7 @@
 //! ```
 //!
 //! A region has `let`, `der`, `hamiltonian`, `conserved` and `for` items, a loop `der`,
-//! `conserved` and `for` items.
+//! `conserved` and `for` items, the block of a sliding motion `conserved` items.
 //! Documentation comments may precede the system, every item but `for`, and every name of a
 //! list. An error loses one item: parsing goes on behind its `;` or block, so that all are found.
 //! Names of the system, of states, parameters and regions are kept even then, for the stub of the
@@ -67,8 +68,8 @@ use crate::diagnostics::catalogue::syntax::{ATTRIBUTE, DEPTH, HEAD, NUMBER, ONE_
 use crate::diagnostics::{Code, Diagnostics, Extent};
 pub use declaration::{
     Assignment, Comparison, Condition, ConservedItem, Declaration, Defaults, Definition,
-    Derivative, Direction, EventItem, ForItem, FunctionItem, Group, HamiltonianItem, Item,
-    ParameterItem, Range, RegionItem, Relation, Target, Trigger,
+    Derivative, Direction, EventItem, ForItem, FunctionItem, Group, HamiltonianItem, InterfaceItem,
+    Item, ParameterItem, Range, RegionItem, Relation, SlidingItem, Target, Trigger,
 };
 pub use expression::{Expression, ExpressionKind, Operator};
 pub(crate) use name::{is_identifier, is_name_of_type};

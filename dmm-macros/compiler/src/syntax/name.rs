@@ -32,6 +32,7 @@ pub(super) const KEYWORDS: &[&str] = &[
     "every",
     "at",
     "conserves",
+    "sliding",
 ];
 
 /// The words that begin an item.
@@ -52,6 +53,7 @@ pub(super) const ITEMS: &[&str] = &[
     "discrete",
     "every",
     "at",
+    "sliding",
 ];
 
 /// Types that every Rust program knows, and that a system of this name would hide from the code

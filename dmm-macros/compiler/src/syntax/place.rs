@@ -7,6 +7,8 @@ pub(super) enum Place {
     System,
     /// In a region's block.
     Region,
+    /// In the block of what holds while a solution slides.
+    Sliding,
     /// In as many loops.
     Loop(usize),
 }
@@ -15,7 +17,7 @@ impl Place {
     /// The number of loops around it.
     pub(super) fn loops(self) -> usize {
         match self {
-            Self::System | Self::Region => 0,
+            Self::System | Self::Region | Self::Sliding => 0,
             Self::Loop(depth) => depth,
         }
     }

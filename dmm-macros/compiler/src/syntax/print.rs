@@ -42,10 +42,12 @@ impl Display for Expression {
             ExpressionKind::Element { group, index } => write!(f, "{group}[{index}]"),
             ExpressionKind::If {
                 condition,
+                slides,
                 then,
                 otherwise,
             } => {
-                write!(f, "if {condition} {{ {then} }} else ")?;
+                let sliding = if *slides { " sliding" } else { "" };
+                write!(f, "if {condition}{sliding} {{ {then} }} else ")?;
                 match otherwise.kind {
                     ExpressionKind::If { .. } => write!(f, "{otherwise}"),
                     _ => write!(f, "{{ {otherwise} }}"),
@@ -165,7 +167,21 @@ fn print(f: &mut Formatter<'_>, item: &Item, indent: &str) -> fmt::Result {
         Item::Constant(item) => definition(f, "const", item, indent),
         Item::Let(item) => definition(f, "let", item, indent),
         Item::Discrete(item) => definition(f, "discrete", item, indent),
-        Item::Interface(item) => definition(f, "interface", item, indent),
+        Item::Interface(item) => {
+            let Definition {
+                attributes,
+                ident,
+                formula,
+            } = &item.definition;
+            documentation(f, attributes, indent)?;
+            let sliding = if item.slides { ", sliding" } else { "" };
+            writeln!(f, "{indent}interface {ident} = {formula}{sliding};")
+        }
+        Item::Sliding(sliding) => {
+            writeln!(f, "{indent}sliding {} {{", sliding.interface)?;
+            items(f, &sliding.items, &format!("{indent}    "))?;
+            writeln!(f, "{indent}}}")
+        }
         Item::Event(event) => print_event(f, event, indent),
         Item::Conserved(item) if item.assumed => {
             definition(f, "assume conserved", &item.definition, indent)

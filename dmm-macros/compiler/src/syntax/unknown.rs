@@ -16,9 +16,10 @@ use crate::diagnostics::{Code, closest};
 fn expected(place: Place) -> &'static str {
     match place {
         Place::System => {
-            "expected `state`, `param`, `const`, `let`, `fn`, `interface`, `region`, `der`, `hamiltonian`, `conserved`, `discrete`, `on`, `every`, `at` or `for`"
+            "expected `state`, `param`, `const`, `let`, `fn`, `interface`, `region`, `der`, `hamiltonian`, `conserved`, `sliding`, `discrete`, `on`, `every`, `at` or `for`"
         }
         Place::Region => "expected `let`, `der`, `hamiltonian`, `conserved`, `on` or `for`",
+        Place::Sliding => "expected `conserved`",
         Place::Loop(_) => "expected `der`, `conserved` or `for`",
     }
 }
@@ -31,14 +32,21 @@ pub(super) fn misplaced(keyword: &Ident, place: Place) -> Option<syn::Error> {
         (
             _,
             "state" | "param" | "const" | "fn" | "interface" | "region" | "discrete" | "every"
-            | "at",
+            | "at" | "sliding",
         ) => {
             let block = match place {
                 Place::Loop(_) => "a loop",
+                Place::Sliding => "the block of a sliding motion",
                 _ => "a region",
             };
             format!("`{text}` belongs at the top level of the system, not in {block}")
         }
+        (Place::Sliding, "conserved" | "assume") => return None,
+        (Place::Sliding, "der" | "hamiltonian") => {
+            "the motion on an interface follows from the fields on its sides: leave out this rate"
+                .to_owned()
+        }
+        (Place::Sliding, _) => format!("`{text}` does not belong here: {}", expected(place)),
         (Place::Loop(_), "let") => {
             "a loop has no `let`: declare a function of the index, `fn r(i) = …;`, in front of it"
                 .to_owned()

@@ -29,7 +29,9 @@ impl Names {
                 Item::Discrete(item) => names.declare(&item.ident, Kind::Discrete, diagnostics),
                 Item::Constant(item) => names.declare(&item.ident, Kind::Constant, diagnostics),
                 Item::Let(item) => names.declare(&item.ident, Kind::Let, diagnostics),
-                Item::Interface(item) => names.declare(&item.ident, Kind::Interface, diagnostics),
+                Item::Interface(item) => {
+                    names.declare(&item.definition.ident, Kind::Interface, diagnostics);
+                }
                 Item::Function(item) => {
                     names.declare(&item.definition.ident, Kind::Function, diagnostics)
                 }

@@ -154,4 +154,11 @@ super::codes! {
     EVENT_TIME = 272, "the time of an event cannot be known beforehand",
         "`every` and `at` take times that parameters and constants tell; what depends on states is an interface.",
         "Write a formula of parameters, or declare an interface and `on` it.";
+
+    NO_SLIDING = 280, "there is no sliding motion on an interface",
+        "A solution slides where the fields on both sides lead to the interface, along a mean of them that stays on it (Filippov). The fields have to differ in what they do to its switching function.",
+        "Remove `sliding`, or correct the formulas that switch there.";
+    NOT_A_MEAN = 281, "the motion on two sliding interfaces at once is not determined",
+        "Where several switches slide, each of them has a mean of its own, if the field is a sum of what they switch: a product of two of them has many means. At most three can depend on one another.",
+        "Write the branches beside each other instead of in each other, or declare interfaces and regions.";
 }

@@ -18,13 +18,10 @@ super::codes! {
         "Write `// …`, or `/// …` to document the item that follows.";
     UNKNOWN_ITEM = 105, "this is no item of a declaration",
         "Every item begins with a word that says what it declares.",
-        "Begin the item with its word: `state`, `param`, `const`, `let`, `fn`, `interface`, `region`, `der`, `hamiltonian`, `conserved`, `assume conserved` or `for`.";
+        "Begin the item with its word: `state`, `param`, `const`, `let`, `fn`, `interface`, `region`, `der`, `hamiltonian`, `conserved`, `assume conserved`, `sliding` or `for`.";
     MISPLACED_ITEM = 106, "the item does not belong in this block",
         "States, parameters, constants, functions, interfaces and regions belong to the whole system. A loop repeats `der`, `conserved`, `assume conserved` and `for` items alone.",
         "Move the item to the top level of the system, or in front of the loop.";
-    NOT_YET = 107, "this is not supported yet",
-        "The item has its place in the language but the integrators cannot use it yet.",
-        "Remove it. Where a trajectory would slide, the integration stops with an error that says where.";
     SEMICOLON = 108, "a `;` or `,` is missing",
         "An item ends with `;`, and the definitions of a list are separated by `,`. The end of a line means nothing.",
         "Write the `;` behind the item.";
@@ -115,4 +112,7 @@ super::codes! {
     EVENT = 137, "an event is not written as one",
         "An event says when it happens, what has to hold then, and what changes, all of it from the values before.",
         "Write `on interface falling { x = …; }`, with `rising` or `falling` or neither, and `where a > b` behind it if it has a condition; or `every 2 { … }`, `at 3 { … }`.";
+    SLIDING = 138, "what holds of a sliding motion is not written in a block of its interface",
+        "While a solution slides on an interface, more may be conserved than on either side.",
+        "Write `sliding interface { conserved energy = …; }`.";
 }

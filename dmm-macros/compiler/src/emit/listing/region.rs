@@ -8,8 +8,7 @@ use super::lister::{Lister, symbol, titled};
 use super::strategy;
 use crate::algebra::display::Symbol;
 use crate::algebra::{Id, Name};
-use crate::model::Sign;
-use crate::model::plain_text;
+use crate::model::{Interface, Model, Sign, plain_text};
 use crate::scheme::{Scheme, Solvability, Strategy};
 
 /// The listing of a system for lines of `width` characters.
@@ -50,10 +49,38 @@ fn interfaces(composer: &mut Composer, scheme: &Scheme) {
         }
         let section = Section {
             level: Level::Part,
-            heading: words(format!("interface {}", plain_text(&interface.ident))),
+            heading: words(heading(&scheme.model, interface)),
             ..Section::default()
         };
         composer.add(section, rows);
+    }
+}
+
+/// What the section of an interface, or of the end of a sliding motion, is called.
+fn heading(model: &Model, interface: &Interface) -> String {
+    let name = |interface: &Interface| plain_text(&interface.ident);
+    let Some(end) = interface.end else {
+        return format!("interface {}", name(interface));
+    };
+    let of = name(&model.interfaces[end.interface]);
+    match end.side {
+        Some(side) => format!(
+            "{}: end of sliding on {of}, where it goes on in {of} {} 0",
+            name(interface),
+            relation(side)
+        ),
+        None => format!(
+            "{}: {of} for what may slide on it, 1 where it does",
+            name(interface)
+        ),
+    }
+}
+
+/// How g compares with zero on a side.
+fn relation(side: Sign) -> char {
+    match side {
+        Sign::Positive => '>',
+        Sign::Negative => '<',
     }
 }
 
@@ -80,14 +107,15 @@ impl Lister<'_> {
             .iter()
             .map(|side| {
                 let interface = plain_text(&self.scheme.model.interfaces[side.interface].ident);
-                let sign = match side.sign {
-                    Sign::Positive => '>',
-                    Sign::Negative => '<',
-                };
-                format!("{interface} {sign} 0")
+                format!("{interface} {} 0", relation(side.sign))
             })
             .collect();
-        let mut heading = format!("region {}", plain_text(&self.region.ident));
+        let kind = if self.region.slide.is_some() {
+            "sliding motion"
+        } else {
+            "region"
+        };
+        let mut heading = format!("{kind} {}", plain_text(&self.region.ident));
         if !sides.is_empty() {
             heading.push_str(&format!(" where {}", sides.join(", ")));
         }

@@ -10,7 +10,7 @@ use super::events::events;
 use super::guards::{guards, sign};
 use super::item::{default, default_value, item, regions};
 use super::paths;
-use crate::model::Parameter;
+use crate::model::{Parameter, Sign};
 use crate::program::{Metadata, Program};
 
 /// Everything that `pws!` emits for a system.
@@ -162,7 +162,8 @@ impl Constants {
                 methods: TokenStream::new(),
             };
         }
-        let constants = (0..discrete + free).map(paths::count);
+        let constants = program.parameters.len() - program.scheme.model.parameters.len();
+        let constants = (0..constants).map(paths::count);
         let [mode, vector, side] = ["Mode", "Vector", "Side"].map(paths::support);
         let initial = program.initial.iter().map(default_value);
         let states = paths::count(program.states.len());
@@ -194,7 +195,9 @@ impl Constants {
             some: quote!(#mode::new(region, [#(#initial),*])),
             methods: quote! {
                 fn region_on(
-                    &self, sides: &[#side], like: ::core::option::Option<Self::Region>
+                    &self,
+                    sides: &[::core::option::Option<#side>],
+                    like: ::core::option::Option<Self::Region>,
                 ) -> ::core::option::Option<Self::Region> {
                     let region = self.region(METADATA.region_on(sides)?)?;
                     ::core::option::Option::Some(region.on(&METADATA, sides, like))
@@ -204,6 +207,9 @@ impl Constants {
                 ) -> ::core::option::Option<#side> {
                     let index = region.region as usize;
                     region.side(&METADATA, index, interface)
+                }
+                fn slides_on(&self, region: Self::Region, interface: usize) -> bool {
+                    region.slides_on(&METADATA, region.region as usize, interface)
                 }
                 fn constants(region: Self::Region) -> ::std::vec::Vec<f64> {
                     ::std::vec![#all]
@@ -267,18 +273,36 @@ fn metadata(metadata: &Metadata) -> TokenStream {
         discrete,
         free,
         switches,
+        sliding,
+        ends,
         events,
         conditions,
         regions,
     } = metadata;
-    let [of_system, of_region, condition, side, event] =
-        ["Metadata", "RegionMetadata", "Condition", "Side", "Event"].map(paths::support);
+    let [of_system, of_region, condition, side, event, end] = [
+        "Metadata",
+        "RegionMetadata",
+        "Condition",
+        "Side",
+        "Event",
+        "SlideEnd",
+    ]
+    .map(paths::support);
     let option = |index: Option<usize>| match index.map(paths::count) {
         Some(index) => quote!(::core::option::Option::Some(#index)),
         None => quote!(::core::option::Option::None),
     };
     let free = free.iter().copied().map(paths::count);
     let switches = switches.iter().copied().map(paths::count);
+    let sliding = sliding.iter().copied().map(paths::count);
+    let some_side = |one: Option<Sign>| match one.map(sign) {
+        Some(sign) => quote!(::core::option::Option::Some(#side::#sign)),
+        None => quote!(::core::option::Option::None),
+    };
+    let ends = ends.iter().map(|one| {
+        let (interface, side) = (paths::count(one.interface), some_side(one.side));
+        quote!(#end { interface: #interface, side: #side })
+    });
     let events = events.iter().map(|one| {
         let (rises, falls) = (one.rises, one.falls);
         let interface = paths::count(one.interface);
@@ -303,16 +327,17 @@ fn metadata(metadata: &Metadata) -> TokenStream {
     });
     let regions = regions.iter().map(|one| {
         let (name, conserved) = (&one.name, &one.conserved);
-        let sides = one.sides.iter().map(|one| match one.map(sign) {
-            Some(sign) => quote!(::core::option::Option::Some(#side::#sign)),
-            None => quote!(::core::option::Option::None),
-        });
+        let sides = one.sides.iter().map(|one| some_side(*one));
+        let on = one.on.iter().copied().map(paths::count);
+        let may_slide = one.may_slide.iter().copied().map(paths::count);
         let neighbours = one.neighbours.iter().copied().map(option);
         quote!(#of_region {
             name: #name,
             conserved: &[#(#conserved),*],
             sides: &[#(#sides),*],
             neighbours: &[#(#neighbours),*],
+            on: &[#(#on),*],
+            may_slide: &[#(#may_slide),*],
         })
     });
     quote! {
@@ -324,6 +349,8 @@ fn metadata(metadata: &Metadata) -> TokenStream {
             discrete: &[#(#discrete),*],
             free: &[#(#free),*],
             switches: &[#(#switches),*],
+            sliding: &[#(#sliding),*],
+            ends: &[#(#ends),*],
             events: &[#(#events),*],
             conditions: &[#(#conditions),*],
             regions: &[#(#regions),*],

@@ -161,6 +161,8 @@ pub(super) struct Context<'a> {
     pub(super) discrete_time_derivative: &'a [Id],
     /// The canonical pairs (q, p) of a Hamiltonian.
     pub(super) canonical: &'a [(usize, usize)],
+    /// Whether a row of Λ may be zero, of a switch that does not slide.
+    pub(super) may_vanish: bool,
 }
 
 impl Context<'_> {
@@ -185,6 +187,9 @@ pub(super) fn choose(dag: &mut Dag, context: &Context<'_>) -> (Strategy, Vec<Ref
         return (Strategy::Midpoint { field }, Vec::new());
     }
     let mut refusals = Vec::new();
+    if context.may_vanish {
+        return (minimal_norm::derive(dag, context), refusals);
+    }
     for strategy in [Conditional::SkewPairing, Conditional::CrossProduct] {
         let derived = match strategy {
             Conditional::SkewPairing => skew_pairing::derive(dag, context),

@@ -28,6 +28,7 @@ fn structure(formula: &str) -> String {
                 condition,
                 then,
                 otherwise,
+                ..
             } => format!(
                 "if<{}{}{},{},{}>",
                 show(&condition.left),

@@ -1,0 +1,56 @@
+//! Many switches that slide independently.
+
+use super::{Failure, assert_close, taylor};
+
+/// Blocks on a belt, coupled by springs, with dry friction on each.
+fn blocks(count: usize) -> String {
+    format!(
+        "system Blocks {{
+            state x[{count}], v[{count}];
+            param speed = 0.2, force = 0.4, k = 1.3;
+            fn friction(i) = -force*(1 + i/50)*(if v[i] > speed sliding {{ 1 }} else {{ -1 }});
+            for i in 0..{count} {{ der(x[i]) = v[i]; }}
+            der(v[0]) = -x[0] - k*(x[0] - x[1]) + friction(0);
+            for i in 1..{count} - 1 {{
+                der(v[i]) = -x[i] + k*(x[i-1] - 2*x[i] + x[i+1]) + friction(i);
+            }}
+            der(v[{count} - 1]) = -x[{count} - 1] - k*(x[{count} - 1] - x[{count} - 2]) + friction({count} - 1);
+        }}"
+    )
+}
+
+#[test]
+fn twenty_blocks_stick_and_slip() -> Result<(), Failure> {
+    let count = 20;
+    let declaration = blocks(count);
+    // all of them stick at first: twenty interfaces at once
+    let mut x0 = vec![0.0; 2 * count];
+    for (index, entry) in x0.iter_mut().enumerate() {
+        *entry = if index < count {
+            0.01 * index as f64
+        } else {
+            0.2
+        };
+    }
+    let way = taylor(&declaration, &[], &x0, 10.0)?;
+    assert!(way.passed.len() > count, "{}", way.passed.len());
+    // backwards in the order of the blocks it is the same system but for the friction: no order of
+    // declaration may matter, so an even force gives a mirror image
+    let even = declaration.replace("(1 + i/50)*", "");
+    let mirror = |x: &[f64]| -> Vec<f64> {
+        let (places, speeds) = x.split_at(count);
+        places
+            .iter()
+            .rev()
+            .chain(speeds.iter().rev())
+            .copied()
+            .collect()
+    };
+    let one = taylor(&even, &[], &x0, 10.0)?;
+    let other = taylor(&even, &[], &mirror(&x0), 10.0)?;
+    assert_eq!(one.passed.len(), other.passed.len());
+    for (value, expected) in one.end.iter().zip(mirror(&other.end)) {
+        assert_close(*value, expected, 1e-12);
+    }
+    Ok(())
+}
