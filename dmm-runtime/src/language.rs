@@ -214,6 +214,53 @@
 /// the same, so that roots, logarithms and quotients of what moves are refused in a branch. Write
 /// regions there.
 ///
+/// # Sliding
+///
+/// Where the fields on both sides of an interface point at it, a solution goes on along the interface,
+/// by the mean of the fields that stays on it (Filippov): ẋ = θ f₊ + (1 − θ) f₋ with ∂ₜg + ∇g·ẋ = 0.
+/// It leaves where one of the fields begins to point away, θ = 0 or θ = 1. That has to be meant:
+/// `interface … = …, sliding;`, or `if … sliding { … } else { … }` in a formula.
+///
+/// ```
+/// use dmm_runtime::{Best, Integrator, System, TransitionKind, pws};
+///
+/// pws! {
+///     /// A mass on a moving belt: it sticks to the belt until the spring is stronger than friction.
+///     pub system Mass {
+///         state x, v;
+///         param friction = 0.4, belt = 0.2;
+///         der(x) = v;
+///         der(v) = -x - friction * (if v > belt sliding { 1 } else { -1 });
+///     }
+/// }
+///
+/// let mass = Mass::default();
+/// let solution = Integrator::new(&mass, Best::tolerance(1e-13))
+///     .initial(0.0, [0.0, 0.2])
+///     .run_until(3.0)?;
+/// // it sticks at once, and slips where x = friction
+/// let [slip] = solution.transitions() else {
+///     panic!("{:?}", solution.transitions());
+/// };
+/// assert_eq!(slip.kind, TransitionKind::LeftSlide);
+/// assert!((slip.t - 2.0).abs() < 1e-13 && (slip.x[0] - 0.4).abs() < 1e-15);
+/// # Ok::<(), dmm_runtime::Error>(())
+/// ```
+///
+/// - While it slides, g is a conserved quantity and stays zero to rounding errors. What the fields on
+///   both sides conserve, the motion conserves; what it conserves besides is declared in a block of
+///   its own, `sliding contact { conserved energy = …; }`, and proved.
+/// - A motion on interfaces is a region like any other to a program: `sliding_contact`, in Rust the
+///   variant `SlidingContact`. Switches that slide belong to the mode: [`Mode`](crate::Mode) has no
+///   side for them.
+/// - Any number of switches may slide at once, where f is a sum of what they switch, and so may two
+///   interfaces of regions. The weights are solved for together where they depend on one another, up
+///   to three of them. Where four regions meet whose fields are no such sum, the mean is not
+///   determined; a solution that comes there ends as
+///   [`ErrorKind::Intersection`](crate::ErrorKind::Intersection).
+/// - A solution that would slide where that is not declared ends as
+///   [`ErrorKind::Sliding`](crate::ErrorKind::Sliding).
+///
 /// # Events
 ///
 /// An event changes states and discrete states in an instant; every new value is computed from the

@@ -66,8 +66,9 @@
 //! | mode | what a run is in: a region, with what is constant between events ([`Mode`]). It is explicit state, never read off the sign of g |
 //! | event | a change of states in an instant, where an interface is crossed or at a time |
 //! | dynamics | what is derived for a mode: f, ψ, Λ, f^τ with its Jacobian, recurrences ([`Dynamics`]) |
-//! | guard | a function whose zero ends a mode: g of an interface, or the [`Condition`] of a proof ([`Guards`]) |
-//! | transition | crossing an interface, at (t̂*, x̂*), or an event there |
+//! | guard | a function whose zero ends a mode: g of an interface, a rate at which a solution leaves the interface that it slides on, or the [`Condition`] of a proof ([`Guards`]) |
+//! | transition | crossing an interface, at (t̂*, x̂*), an event there, or where sliding begins or ends |
+//! | sliding | motion along an interface that the fields of both sides point at |
 //! | method | what moves the state through one mode ([`Method`]) |
 //! | metadata | the names in a system, and where its regions lie ([`Metadata`]) |
 //! | driver | what goes from mode to mode ([`Integrator`], [`Stepper`]) |
@@ -77,7 +78,8 @@
 //!
 //! # Where a solution meets interfaces
 //!
-//! One rule for each case, the same for every method.
+//! One rule for each case, the same for every method; [`rules`] has them beside what is common
+//! elsewhere, with their tests.
 //!
 //! | case | what happens |
 //! |---|---|
@@ -87,13 +89,15 @@
 //! | two crossings in a step | both are found, or the run ends as [`ErrorKind::Undecided`] |
 //! | a touch | none, counted by [`Statistics::grazes`] |
 //! | a start on an interface | the region that its fields lead into; ambiguous where several do ([`ErrorKind::Ambiguous`]), until [one is named](InitialValueProblem::region) |
-//! | the fields of both sides point at the interface | [`ErrorKind::Sliding`] with both rates; of several interfaces at once [`ErrorKind::Intersection`] |
+//! | the fields of both sides point at the interface, which is declared `sliding` | the solution slides along the mean of the fields, to where one of them points away ([`TransitionKind::BeganToSlide`], [`TransitionKind::LeftSlide`]) |
+//! | … and is not declared so | [`ErrorKind::Sliding`] with both rates |
+//! | several sliding interfaces at once | the one choice, of a side or of sliding for each of them, that all fields fit to; several are [`ErrorKind::Ambiguous`], none is [`ErrorKind::Intersection`] |
 //! | a field is tangential to the interface | [`ErrorKind::Tangential`] |
 //! | an event | states and discrete states change, the mode behind it is decided as at a start, and it does not happen again at the point it has led to |
 //! | events at once | all see the values before; what contradicts itself is [`ErrorKind::Conflict`] |
 //! | an event at a time | met exactly, in pairs of doubles |
 //! | transitions that accumulate | [`ErrorKind::Zeno`], with the solution up to there |
-//! | backwards in time | [`Reversed`]; a system with events is refused |
+//! | backwards in time | [`Reversed`]; a system with events or sliding is refused |
 //!
 //! # The methods
 //!
@@ -161,6 +165,7 @@ mod method;
 #[cfg(feature = "model")]
 mod model;
 mod output;
+pub mod rules;
 pub mod series;
 pub mod special;
 #[doc(hidden)]

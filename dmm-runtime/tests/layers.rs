@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 18] = [
+const LAYERS: [&str; 19] = [
     "error",
     "arithmetic",
     "special",
@@ -21,6 +21,7 @@ const LAYERS: [&str; 18] = [
     "dynamic",
     "model",
     "guide",
+    "rules",
     "language",
     "lib",
 ];

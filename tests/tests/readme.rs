@@ -55,3 +55,30 @@ fn the_message_is_what_the_macro_says() {
     let shown = block("console").trim_start_matches("error: ").trim_end();
     assert_eq!(messages, [shown]);
 }
+
+#[test]
+fn the_rules_name_tests_that_are_there() {
+    let rules = include_str!("../../dmm-runtime/src/rules.rs");
+    let rows = rules.lines().filter_map(|line| line.strip_prefix("//! | "));
+    let last = rows.filter_map(|row| row.trim_end_matches(" |").rsplit(" | ").next());
+    let names: Vec<&str> = last
+        .flat_map(|cell| cell.split('`').skip(1).step_by(2))
+        .collect();
+    assert!(names.len() > 30, "{names:?}");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let mut tests = String::new();
+    let mut folders = vec![folder];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                tests += &std::fs::read_to_string(path).unwrap_or_default();
+            }
+        }
+    }
+    for name in names {
+        assert!(tests.contains(&format!("fn {name}()")), "{name}");
+    }
+}
