@@ -210,9 +210,9 @@
 /// # Ok::<(), dmm_runtime::Error>(())
 /// ```
 ///
-/// Both branches are computed, and the one that does not hold counts nothing: it needs a value all
-/// the same, so that roots, logarithms and quotients of what moves are refused in a branch. Write
-/// regions there.
+/// Both branches are computed, and the one that does not hold counts nothing. Where it would have no
+/// value, under a root, a logarithm or in a denominator, something else is computed there; where it
+/// costs much, regions are the faster way.
 ///
 /// # Sliding
 ///

@@ -1,10 +1,12 @@
 //! Switches within formulas: `if`, `abs`, `sign`, `min`, `max` and `clamp`.
 
+use dmm_runtime::dynamic::{AnySystem, InitialValue, Unobserved};
 use dmm_runtime::{
-    Best, Composed, Error, ErrorKind, Integrator, Symmetric, System, Taylor, TransitionKind, pws,
+    Best, Composed, Error, ErrorKind, Integrator, Model, Symmetric, System, Taylor, TransitionKind,
+    pws,
 };
 
-use super::{Failure, run, same_at_run_time, times};
+use super::{Failure, Tolerance, run, same_at_run_time, times};
 
 pws! {
     /// A force of constant size towards the origin.
@@ -218,5 +220,40 @@ fn systems_compiled_at_run_time_switch_alike() -> Result<(), Failure> {
     same_at_run_time(&Constant {}, [0.5, 0.0], 50.0)?;
     same_at_run_time(&Saturated::default(), [0.1, 0.0], 20.0)?;
     same_at_run_time(&Fastest {}, [3.0], 2.0)?;
+    Ok(())
+}
+
+#[test]
+fn a_branch_may_have_no_value_on_the_other_side() -> Result<(), Failure> {
+    // a homogeneous sphere: the force is linear inside and Kepler's outside
+    let declaration = "system Sphere {
+        state x, y, u, v;
+        let r = sqrt(x^2 + y^2);
+        let pull = if r > 1 { 1/r^3 } else { 1 };
+        let potential = if r > 1 { -1/r } else { r^2/2 - 3/2 };
+        der(x) = u;
+        der(y) = v;
+        der(u) = -pull*x;
+        der(v) = -pull*y;
+        conserved angular_momentum = x*v - y*u;
+        conserved energy = (u^2 + v^2)/2 + potential;
+    }";
+    let model = Model::compile(declaration)?;
+    let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
+    let from = InitialValue::new(vec![2.0, 0.0, 0.0, 0.1], 50.0);
+    let end = model.integrate(&Tolerance(1e-12), &from, &mut Unobserved)?;
+    assert!(
+        end.statistics.transitions > 10,
+        "{}",
+        end.statistics.transitions
+    );
+    let [x, y, u, v] = end.x[..] else {
+        return Err("four states".into());
+    };
+    let r = x.hypot(y);
+    let potential = if r > 1.0 { -1.0 / r } else { r * r / 2.0 - 1.5 };
+    let energy = (u * u + v * v) / 2.0 + potential;
+    assert!((energy - (0.005 - 0.5)).abs() < 1e-14, "{energy}");
+    assert!((x * v - y * u - 0.2).abs() < 1e-15);
     Ok(())
 }

@@ -55,7 +55,7 @@ pws! {
 pws! {
     system Branches {
         state x;
-        der(x) = if x > 0 { sqrt(x) } else { 0 };
+        der(x) = if x > 0 { floor(x) } else { 0 };
     }
 }
 

@@ -3,6 +3,8 @@
 //! `if a > b { u } else { v }` is s u + (1 − s) v, where s is 1 on the side a − b > 0 and 0 on the
 //! other one, a constant of the mode. So there is one field, whatever the number of switches.
 
+use std::collections::HashMap;
+
 use quote::format_ident;
 
 use super::{Allowed, Resolver, Value};
@@ -44,10 +46,7 @@ impl<'d> Resolver<'d> {
             Relation::Greater => self.difference(left, right),
             Relation::Less => self.difference(right, left),
         };
-        for (part, value) in [(then, then_value), (otherwise, otherwise_value)] {
-            self.has_value_everywhere(part, value)?;
-        }
-        let value = self.switch(formula, g, then_value, otherwise_value)?;
+        let value = self.switch(formula, g, then_value, otherwise_value, true)?;
         let known = self.regions.interfaces.iter_mut().flatten();
         for interface in known.filter(|one| slides && one.switching_function == g.id) {
             interface.slides = true;
@@ -84,12 +83,12 @@ impl<'d> Resolver<'d> {
         Some(values.and_then(|values| match (name, &values[..]) {
             ("abs", &[u]) => {
                 let opposite = self.opposite(u);
-                self.switch(formula, u, u, opposite)
+                self.switch(formula, u, u, opposite, false)
             }
             ("sign", &[u]) => {
                 let one = self.integer_value(1);
                 let minus_one = self.integer_value(-1);
-                self.switch(formula, u, one, minus_one)
+                self.switch(formula, u, one, minus_one, false)
             }
             ("min", &[u, v]) => self.greatest(formula, u, v, false),
             ("max", &[u, v]) => self.greatest(formula, u, v, true),
@@ -111,11 +110,19 @@ impl<'d> Resolver<'d> {
     ) -> Option<Value> {
         let g = self.difference(u, v);
         let (above, below) = if is_max { (u, v) } else { (v, u) };
-        self.switch(formula, g, above, below)
+        self.switch(formula, g, above, below, false)
     }
 
-    /// u where g > 0, v where g < 0.
-    fn switch(&mut self, formula: &'d Expression, g: Value, u: Value, v: Value) -> Option<Value> {
+    /// u where g > 0, v where g < 0, of which each may have no value on the other side if they are
+    /// `branches`.
+    fn switch(
+        &mut self,
+        formula: &'d Expression,
+        g: Value,
+        u: Value,
+        v: Value,
+        are_branches: bool,
+    ) -> Option<Value> {
         if let Some(number) = g.number {
             return Some(if number > 0.0 { u } else { v });
         }
@@ -136,7 +143,12 @@ impl<'d> Resolver<'d> {
         let dag = &mut self.evaluator.dag;
         let one = dag.integer(1);
         let other = dag.sub(one, side);
-        let (first, second) = (dag.mul(side, u.id), dag.mul(other, v.id));
+        let (mut u, mut v) = (u.id, v.id);
+        if are_branches {
+            (u, v) = (self.anywhere(u, side), self.anywhere(v, other));
+        }
+        let dag = &mut self.evaluator.dag;
+        let (first, second) = (dag.mul(side, u), dag.mul(other, v));
         Some(Value {
             id: dag.add(first, second),
             number: None,
@@ -189,9 +201,25 @@ impl<'d> Resolver<'d> {
         interfaces.any(|interface| depends_on.contains(&interface.side))
     }
 
-    /// Refuses a part that may have no value on the other side, where it counts nothing but is
-    /// computed all the same.
-    fn has_value_everywhere(&mut self, part: &'d Expression, value: Value) -> Option<()> {
+    /// A branch that has a value on the other side too, where it is computed and counts nothing: with
+    /// s = `side`, which is 1 where it counts and 0 elsewhere, what a root, a logarithm or a quotient
+    /// has no value for is s u + (1 − s)/2 instead of u.
+    fn anywhere(&mut self, branch: Id, side: Id) -> Id {
+        let limited: HashMap<Id, Id> = (self.evaluator.dag.reachable([branch]).into_iter())
+            .filter_map(|id| Some((id, self.limited(id)?)))
+            .collect();
+        let dag = &mut self.evaluator.dag;
+        let (one, two) = (dag.integer(1), dag.integer(2));
+        let elsewhere = dag.sub(one, side);
+        let elsewhere = dag.div(elsewhere, two);
+        dag.with_parts(branch, &limited, |dag, part| {
+            let here = dag.mul(side, part);
+            dag.add(here, elsewhere)
+        })
+    }
+
+    /// The part of an operation that it may have no value for, if that part moves.
+    fn limited(&self, id: Id) -> Option<Id> {
         let dag = &self.evaluator.dag;
         let varies = |id: Id| {
             let depends_on = dag.variables([id]);
@@ -199,28 +227,18 @@ impl<'d> Resolver<'d> {
             depends_on.contains(&Model::time())
                 || states.iter().any(|state| depends_on.contains(&state.name))
         };
-        let may_fail = |id: &Id| match dag[*id] {
-            Math::Call(function, a) => {
-                let is_limited = matches!(
-                    function,
-                    Function::Sqrt | Function::Ln | Function::Asin | Function::Acos | Function::Tan
-                );
-                is_limited && varies(a)
-            }
-            Math::Div([_, b]) => varies(b),
+        match dag[id] {
+            Math::Call(
+                Function::Sqrt | Function::Ln | Function::Asin | Function::Acos | Function::Tan,
+                a,
+            ) => varies(a).then_some(a),
+            Math::Div([_, b]) => varies(b).then_some(b),
             Math::Pow([a, b]) => {
-                (varies(a) && dag.as_integer(b).is_none_or(|n| n < 0)) || varies(b)
+                let is_limited = dag.as_integer(b).is_none_or(|n| n < 0);
+                (is_limited && (varies(a) || varies(b))).then_some(a)
             }
-            _ => false,
-        };
-        if !dag.reachable([value.id]).iter().any(may_fail) {
-            return Some(());
+            _ => None,
         }
-        let message = format!(
-            "`{part}` may have no value on the other side, where it is computed too: declare an `interface` and a `region` on each side of it"
-        );
-        self.report(codes::NOT_SMOOTH, part.extent, message);
-        None
     }
 
     fn difference(&mut self, u: Value, v: Value) -> Value {

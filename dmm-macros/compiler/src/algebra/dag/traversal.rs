@@ -70,6 +70,28 @@ impl Dag {
         image[&root]
     }
 
+    /// `root` with the part that `parts` names of some of its nodes replaced there by what `replace`
+    /// makes of it.
+    pub fn with_parts(
+        &mut self,
+        root: Id,
+        parts: &HashMap<Id, Id>,
+        mut replace: impl FnMut(&mut Self, Id) -> Id,
+    ) -> Id {
+        let mut image: HashMap<Id, Id> = HashMap::new();
+        for id in self.reachable([root]) {
+            let node = self[id].clone();
+            let part = parts.get(&id).map(|part| (*part, image[part]));
+            if let Some((part, known)) = part {
+                image.insert(part, replace(self, known));
+            }
+            let new = self.rebuild(&node.map_children(|child| image[&child]));
+            image.extend(part);
+            image.insert(id, new);
+        }
+        image[&root]
+    }
+
     /// Adds `node` through the constructor of its operation.
     pub fn rebuild(&mut self, node: &Math) -> Id {
         match *node {

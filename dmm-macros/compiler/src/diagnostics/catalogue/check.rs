@@ -35,8 +35,8 @@ super::codes! {
     NUMBER_OF_ARGUMENTS = 212, "a function is called with the wrong number of arguments",
         "Built-in functions take one argument, those declared with `fn` as many as they declare.",
         "Add or remove arguments.";
-    NOT_SMOOTH = 213, "a function jumps without end, or a branch may have no value",
-        "Both branches of a formula are computed, and the one that does not hold counts nothing: it needs a value all the same. What jumps again and again is no formula.",
+    NOT_SMOOTH = 213, "a function jumps without end",
+        "An interface is where one function is zero. What jumps again and again is no formula.",
         "Declare an `interface` and a `region` on each side of it, or a discrete state with an event.";
 
     DIVISION_BY_ZERO = 220, "a division by zero",
