@@ -16,6 +16,7 @@ mod billiard;
 mod circuits;
 mod converter;
 mod epidemic;
+mod files;
 mod maps;
 mod neuron;
 mod rings;
