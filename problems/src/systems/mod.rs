@@ -4,6 +4,9 @@
 //! chains, the circuit and the food chain are piecewise smooth too; the others are smooth
 //! classics that exercise other functions and strategies. These are compared with the
 //! independent integrator of [`accurate`](crate::accurate).
+//!
+//! Systems with events and switches are files of their own, in `hybrid/`, and are compared with
+//! closed forms and published numbers.
 
 pub mod damped;
 pub mod double_pendulum;

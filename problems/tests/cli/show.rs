@@ -94,6 +94,12 @@ fn what_is_not_used_is_a_warning() {
         "{warnings}"
     );
     assert_eq!(warnings.matches("warning:").count(), 1, "{warnings}");
+    let out = folder.path().to_str().unwrap();
+    let [_, warnings] = texts(
+        pws(&["run", shown, "--initial", "x=1", "--end", "1", "--out", out]),
+        0,
+    );
+    assert_eq!(warnings.matches("warning:").count(), 1, "{warnings}");
 }
 
 #[test]

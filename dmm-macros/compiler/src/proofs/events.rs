@@ -4,9 +4,9 @@ use std::collections::HashMap;
 
 use proc_macro2::Ident;
 
+use super::Variables;
 use super::message::refutation;
-use super::place::decide;
-use super::{Derivatives, Variables};
+use super::on_interface::is_equal;
 use crate::algebra::{Dag, Id, Name, Verdict};
 use crate::diagnostics::catalogue::proofs as codes;
 use crate::diagnostics::{Diagnostics, closest};
@@ -31,7 +31,7 @@ pub(super) fn prove(model: &mut Model, variables: &Variables, diagnostics: &mut 
             continue;
         };
         let after = after(event, &states, &discrete);
-        let on_interface = on_interface(dag, interface.switching_function, &states);
+        let g = interface.switching_function;
         for ident in &event.conserved {
             let here = |region: &Ident| event.region.as_ref().is_none_or(|one| one == region);
             let regions = regions.iter().filter(|region| here(&region.ident));
@@ -47,9 +47,7 @@ pub(super) fn prove(model: &mut Model, variables: &Variables, diagnostics: &mut 
             }
             for psi in quantities {
                 let changed = dag.substitute(psi, &after);
-                let residual = dag.sub(changed, psi);
-                let root = dag.substitute(residual, &on_interface);
-                let verdict = decide(dag, variables, root, &[psi, changed], &event.conditions);
+                let verdict = is_equal(dag, variables, g, [psi, changed], &event.conditions);
                 report(dag, ident, verdict, diagnostics);
             }
         }
@@ -69,22 +67,6 @@ fn after(event: &Event, states: &[Name], discrete: &[Name]) -> HashMap<Name, Id>
         .into_iter()
         .chain(named(discrete, &event.discrete))
         .collect()
-}
-
-/// A state as the interface g = 0 gives it, where g is affine in it with a slope that is a number.
-fn on_interface(dag: &mut Dag, g: Id, states: &[Name]) -> HashMap<Name, Id> {
-    let gradient = Derivatives::of(dag, g, states).gradient;
-    let slopes = states.iter().zip(gradient);
-    let mut slopes = slopes.filter_map(|(state, slope)| {
-        let is_slope = dag.as_constant(slope).is_some() && !dag.is_zero(slope);
-        is_slope.then_some((state, slope))
-    });
-    let Some((state, slope)) = slopes.next() else {
-        return HashMap::new();
-    };
-    let x = dag.variable(state);
-    let rest = dag.div(g, slope);
-    HashMap::from([(state.clone(), dag.sub(x, rest))])
 }
 
 fn unknown(ident: &Ident, names: &[String], diagnostics: &mut Diagnostics) {

@@ -23,6 +23,7 @@ mod events;
 mod independence;
 mod interfaces;
 mod message;
+mod on_interface;
 mod place;
 mod points;
 mod proved;

@@ -70,6 +70,8 @@ impl<'a> Source<'a> {
     /// Shows a warning on standard error at a line and a column.
     pub(crate) fn warn_at(&self, (line, column): (usize, usize), text: &str) {
         let place = self.offset(line, column);
+        // the level says that it is one
+        let text = text.strip_prefix("warning: ").unwrap_or(text);
         self.show(Level::WARNING, place..place, text);
     }
 
