@@ -95,7 +95,8 @@
 //! | a field is tangential to the interface | [`ErrorKind::Tangential`] |
 //! | an event | states and discrete states change, the mode behind it is decided as at a start, and it does not happen again at the point it has led to |
 //! | events at once | all see the values before; what contradicts itself is [`ErrorKind::Conflict`] |
-//! | an event at a time | met exactly, in pairs of doubles |
+//! | an event at a time | met at the double nearest to it |
+//! | an event that stops what moves g | the solution rests on the interface, on the side that it came from |
 //! | transitions that accumulate | [`ErrorKind::Zeno`], with the solution up to there |
 //! | backwards in time | [`Reversed`]; a system with events or sliding is refused |
 //!

@@ -45,7 +45,8 @@
 //! | a relay with memory, a converter with a latch | global variables in callbacks | `discrete` states, part of the mode | `hysteresis_remembers_what_it_met` |
 //! | a reset leaves the state on the interface, and fires again | a flag in the callback | it does not happen again at the point that it has led to | `a_ball_bounces_with_every_scheme` |
 //! | events at once assign in the order of the list | the last one wins | all see the values before; a contradiction is an error | `a_corner_turns_both_velocities`, `events_at_once_must_agree` |
-//! | an event at a time is met by a step or not | by restarting | exactly, in pairs of doubles | `events_in_time_are_met_exactly` |
+//! | an event at a time is met by a step or not | by restarting | at the double nearest to it | `events_in_time_are_met_exactly` |
+//! | a state that an event stops on its interface fires without end | yes | it rests there, on the side that it came from | `what_an_event_stops_rests_on_its_interface` |
 //! | a bouncing ball ends in an endless loop, or falls through the floor | yes | [`ErrorKind::Zeno`](crate::ErrorKind::Zeno), with all that came before | `bounces_that_accumulate_end_as_an_error` |
 //! | going back over an event | another trajectory | refused with events and sliding; else the same way back | `every_method_comes_back` |
 //!

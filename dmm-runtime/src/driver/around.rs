@@ -284,11 +284,38 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         match choice {
             Some(side) if self.left == Some((interface, side)) => Fit::Fits,
             Some(side) if self.system.side(mode, interface).is_some() => {
-                Fit::of(self.rate(mode, interface) * side.sign())
+                let rate = self.rate(mode, interface);
+                if rate == 0.0 && self.rests_on(mode, interface) {
+                    let known = self.system.side(self.like, interface);
+                    return if known == Some(side) {
+                        Fit::Fits
+                    } else {
+                        Fit::Fails
+                    };
+                }
+                Fit::of(rate * side.sign())
             }
             Some(_) => Fit::Fits,
             None => self.stays_on(mode, interface),
         }
+    }
+
+    /// Whether a mode stays on an interface that has to do with events alone, because nothing moves its
+    /// switching function there: then it keeps the side that it had.
+    fn rests_on(&self, mode: Sys::Region, interface: usize) -> bool {
+        /// How far ahead along the field that is tried, in units of time.
+        const AHEAD: [f64; 3] = [1e-6, 1e-3, 1.0];
+        let metadata = self.system.metadata();
+        let region = self.system.of_region(mode);
+        let bounds = region.sides.get(interface).copied().flatten().is_some();
+        if bounds || metadata.switches.contains(&interface) {
+            return false;
+        }
+        let field = self.system.vector_field(mode, self.t, self.x);
+        AHEAD.iter().all(|&ahead| {
+            let x = self.x + field * ahead;
+            Reading::new(self.system, mode, interface, self.t + ahead, &x).rate == 0.0
+        })
     }
 
     /// Whether the ends of a sliding motion that belong to an interface are ahead of it.

@@ -1,11 +1,12 @@
 //! Events: jumps of the state, discrete states, and what happens at given times.
 
+use dmm_runtime::dynamic::{AnySystem, InitialValue, Unobserved};
 use dmm_runtime::{
-    Best, Composed, Error, ErrorKind, Integrator, Mode, Side, Symmetric, Taylor, TransitionKind,
-    pws,
+    Best, Composed, Error, ErrorKind, Integrator, Mode, Model, Side, Symmetric, Taylor,
+    TransitionKind, pws,
 };
 
-use super::{Failure, run, same_at_run_time, times};
+use super::{Failure, Tolerance, run, same_at_run_time, times};
 
 pws! {
     /// A ball that loses speed where it bounces.
@@ -296,5 +297,40 @@ fn systems_compiled_at_run_time_have_the_same_events() -> Result<(), Failure> {
     same_at_run_time(&Thermostat::default(), [0.0], 8.0)?;
     same_at_run_time(&Doses::default(), [0.0], 20.0)?;
     same_at_run_time(&Neuron::default(), [0.0, 0.0], 30.0)?;
+    Ok(())
+}
+
+#[test]
+fn what_an_event_stops_rests_on_its_interface() -> Result<(), Failure> {
+    // a rectifier: the current stops at zero and comes again when the voltage drives it
+    let declaration = "system Rectifier {
+        state i, c;
+        param r = 0.3;
+        discrete conducts = 1;
+        interface current = i;
+        interface forward = sin(t);
+        der(i) = conducts*(sin(t) - r*i);
+        der(c) = 1;
+        on current falling { conducts = 0; i = 0; }
+        on forward rising { conducts = 1; }
+    }";
+    let model = Model::compile(declaration)?;
+    let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
+    let from = InitialValue::new(vec![0.1, 0.0], 60.0);
+    let end = model.integrate(&Tolerance(1e-13), &from, &mut Unobserved)?;
+    // i stops once a period and goes on once
+    assert_eq!(end.statistics.transitions, 18);
+    assert!(end.x[0] >= 0.0);
+    let stop = "system Stop {
+        state x;
+        discrete moving = 1;
+        interface floor = x;
+        der(x) = -moving;
+        on floor falling { moving = 0; }
+    }";
+    let model: Box<dyn AnySystem<Tolerance>> = Model::compile(stop)?.into_any()?;
+    let from = InitialValue::new(vec![1.0], 3.0);
+    let end = model.integrate(&Tolerance(1e-13), &from, &mut Unobserved)?;
+    assert_eq!((end.statistics.transitions, end.x), (1, vec![0.0]));
     Ok(())
 }
