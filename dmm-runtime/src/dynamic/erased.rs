@@ -286,7 +286,7 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Together<'_, Sys, N> {
         let arrival = |end: End<Sys::Region, N>| Arrival {
             t: end.point.t,
             x: erased.slice(&end.point.x).to_vec(),
-            region: Sys::index(end.point.region),
+            mode: erased.mode(end.point.region),
             statistics: end.statistics,
         };
         let ensemble = Ensemble::new(method).lanes(self.parallelism.lanes);

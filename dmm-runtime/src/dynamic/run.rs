@@ -139,8 +139,8 @@ pub struct Arrival {
     pub t: f64,
     /// State.
     pub x: Vec<f64>,
-    /// Index of the region.
-    pub region: usize,
+    /// Mode.
+    pub mode: AnyMode,
     /// Counters.
     pub statistics: Statistics,
 }

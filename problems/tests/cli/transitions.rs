@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use tempfile::TempDir;
 
-use super::{Results, texts};
+use super::{Results, pws, texts};
 
 /// A file with a declaration.
 fn file(declaration: &str) -> (TempDir, PathBuf) {
@@ -167,6 +167,30 @@ fn a_long_itinerary_is_cut() {
     let picture = fs::read_to_string(results.path("phase.svg")).unwrap();
     assert_eq!(picture.matches(">bounces = ").count(), 6);
     assert!(picture.contains(">other modes<") && picture.contains(">trajectory<"));
+}
+
+#[test]
+fn an_ensemble_tells_where_discrete_states_end() {
+    let (folder, path) = file(BALL);
+    let ends = folder.path().join("ends.csv");
+    let (system, out) = (path.to_str().unwrap(), ends.to_str().unwrap());
+    let call = [
+        "ensemble",
+        system,
+        "--initial",
+        "y=0.5..0.125:2",
+        "--end",
+        "6",
+        "--out",
+        out,
+    ];
+    texts(pws(&call), 0);
+    let text = fs::read_to_string(ends).unwrap();
+    let rows: Vec<Vec<&str>> = text.lines().map(|row| row.split(',').collect()).collect();
+    let columns = "member y(0) v(0) t region y v bounces steps transitions failure";
+    assert_eq!(rows[0], columns.split(' ').collect::<Vec<_>>());
+    // at 1, 3, 5, and at 1/2, 3/2, …, 11/2
+    assert_eq!([rows[1][7], rows[2][7]], ["3", "6"], "{text}");
 }
 
 #[test]
