@@ -47,6 +47,7 @@
 //! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`] |
 //! | go step by step, stop, change, go on | [`Stepper`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
+//! | write it to files | [`Solution::write_csv`], [`Solution::write_transitions_csv`] |
 //! | see how a common task is done | the [`guide`] |
 //! | keep some of its points only | [`Recording`] |
 //! | watch a long run in constant memory | [`on_point`], [`on_transition`], [`progress`], [`Observer`]; [`End`], [`Halted`] |

@@ -25,6 +25,7 @@ fn a_solution_is_serialised_with_the_names_of_its_system() {
     let value = to_value(&solution).unwrap();
     assert_eq!(value["system"], "Ball");
     assert_eq!(value["states"], json!(["x", "v"]));
+    assert_eq!(value["discrete"], json!([]));
     assert_eq!(value["parameters"], json!({"k": 4.0}));
     let points = json!([
         {"t": 0.0, "region": "free", "x": [0.5, 0.0]},
@@ -52,6 +53,45 @@ fn a_solution_is_serialised_with_the_names_of_its_system() {
         alone,
         json!({"t": 0.25, "region": "Free", "x": [0.46875, -0.25]})
     );
+}
+
+pws! {
+    /// A ball that bounces, counts, and is pushed at times.
+    pub system Bounces {
+        state y, v;
+        discrete bounces = 0;
+        interface floor = y;
+        der(y) = v;
+        der(v) = -1;
+        every 4 { v = v + 1; }
+        on floor falling {
+            v = -v / 2;
+            bounces = bounces + 1;
+        }
+    }
+}
+
+#[test]
+fn discrete_states_and_both_sides_of_a_jump_are_serialised() {
+    let solution = Integrator::new(&Bounces {}, Best::tolerance(1e-12))
+        .initial(0.0, [0.5, 0.0])
+        .output_times([0.5, 1.5])
+        .run_until(1.5)
+        .unwrap();
+    let value = to_value(&solution).unwrap();
+    // what counts periodic events is not declared
+    assert_eq!(value["discrete"], json!(["bounces"]));
+    let points = json!([
+        {"t": 0.5, "region": "everywhere", "x": [0.375, -0.5], "discrete": [0.0]},
+        {"t": 1.5, "region": "everywhere", "x": [0.125, 0.0], "discrete": [1.0]},
+    ]);
+    assert_eq!(value["points"], points);
+    let transition = &value["transitions"][0];
+    assert_eq!(transition["kind"], "jumped");
+    assert_eq!(transition["x"], json!([0.0, -1.0]));
+    assert_eq!(transition["after"], json!([0.0, 0.5]));
+    assert_eq!(transition["discrete"], json!([0.0]));
+    assert_eq!(transition["discrete_after"], json!([1.0]));
 }
 
 #[test]

@@ -87,7 +87,7 @@ impl AnyObserver for Meter<'_> {
         if let Some(exact) = self
             .exact
             .as_ref()
-            .and_then(|levels| levels.get(record.region))
+            .and_then(|levels| levels.get(record.mode.region))
         {
             for (level, exact) in record.level.iter().zip(exact) {
                 self.level_error = self.level_error.max((level - exact).abs());

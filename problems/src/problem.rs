@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 
 use dmm_runtime::dynamic;
 pub use dmm_runtime::dynamic::{
-    AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism,
-    Record, Start,
+    AnyMode, AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes,
+    Parallelism, Record, Start,
 };
 use dmm_runtime::{Error, Metadata, Model, Statistics};
 

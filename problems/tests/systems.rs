@@ -31,7 +31,7 @@ struct Collector {
 
 impl AnyObserver for Collector {
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
-        self.crossings.push((crossed.t, crossed.to));
+        self.crossings.push((crossed.t, crossed.to.region));
         ControlFlow::Continue(())
     }
 

@@ -130,6 +130,7 @@ fn lanes_reach_the_reference() {
     for outcome in Ensemble::new(Taylor::tolerance(1e-13)).collect_until(100.0, members) {
         let end = outcome.unwrap();
         assert_eq!(end.statistics.transitions, 105);
+        assert_eq!(end.statistics.crossed, 105);
         assert!((end.point.x - reference).norm() < 1e-10, "{}", end.point.x);
     }
 }

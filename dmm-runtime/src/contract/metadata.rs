@@ -115,6 +115,14 @@ impl Metadata {
         !self.discrete.is_empty() || !self.free.is_empty()
     }
 
+    /// The discrete states that are declared, with their indices in [`Metadata::discrete`]: all but
+    /// those that count periodic events.
+    pub fn declared_discrete(&self) -> impl Iterator<Item = (usize, &'static str)> {
+        let is_clock = |index| self.events.iter().any(|event| event.clock == Some(index));
+        let discrete = self.discrete.iter().copied().enumerate();
+        discrete.filter(move |&(index, _)| !is_clock(index))
+    }
+
     /// The index of the region on these sides of the interfaces; nothing stands for those that it
     /// slides on.
     pub fn region_on(&self, sides: &[Option<Side>]) -> Option<usize> {

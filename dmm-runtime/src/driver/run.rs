@@ -168,7 +168,9 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         }
         (self.accumulation).count(system, (guard, self.region), *time, &state.x)?;
         let next = enter(system, (self.region, rate), guard, *time, state)?;
-        self.statistics.transitions += u64::from(next.transition.is_some());
+        if let Some(transition) = &next.transition {
+            transition.kind.count(&mut self.statistics);
+        }
         self.region = next.mode;
         if let Some(state) = next.state {
             self.cursor.state = state;

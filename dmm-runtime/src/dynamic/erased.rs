@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use super::AnySystem;
 use super::method::{MethodChoice, MethodVisitor};
 use super::run::{
-    AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism,
-    Record, Start,
+    AnyMode, AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes,
+    Parallelism, Record, Start,
 };
 use crate::arithmetic::{Time, Vector};
 use crate::contract::{Dynamics, DynamicsVisitor, Metadata, System};
@@ -75,6 +75,21 @@ impl<Sys: System<N>, const N: usize> Erased<Sys, N> {
         error.with_states(self.states())
     }
 
+    /// A mode, with its region numbered.
+    fn mode(&self, mode: Sys::Region) -> AnyMode {
+        let metadata = self.system.metadata();
+        let mut discrete = Sys::constants(mode);
+        discrete.truncate(metadata.discrete.len());
+        let sides = metadata.free.iter();
+        AnyMode {
+            region: Sys::index(mode),
+            discrete,
+            sides: sides
+                .map(|&interface| self.system.side(mode, interface))
+                .collect(),
+        }
+    }
+
     /// The end of a run.
     fn finish(&self, end: &End<Sys::Region, N>) -> Finish {
         Finish {
@@ -106,6 +121,7 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Observed<'_, Sys, N> {
             erased,
             output_times: &from.output_times,
             outputs: 0,
+            mode: (None, AnyMode::default()),
             psi: Vec::new(),
             size: Vec::new(),
             level: Vec::new(),
@@ -136,13 +152,15 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Silent<'_, Sys, N> {
 }
 
 /// Tells a [`AnyObserver`] what the runtime tells its observer.
-struct Forwarding<'a, Sys, const N: usize> {
+struct Forwarding<'a, Sys: System<N>, const N: usize> {
     observer: &'a mut dyn AnyObserver,
     wants_records: bool,
     erased: &'a Erased<Sys, N>,
     output_times: &'a OutputTimes,
     /// How many of them there were so far.
     outputs: usize,
+    /// The mode of the last record, as the system has it and with its region numbered.
+    mode: (Option<Sys::Region>, AnyMode),
     psi: Vec<f64>,
     size: Vec<f64>,
     /// ψ on entry to the region; empty until then.
@@ -158,10 +176,13 @@ impl<Sys: System<N>, const N: usize> Forwarding<'_, Sys, N> {
         if self.level.is_empty() {
             self.level.clone_from(&self.psi);
         }
+        if self.mode.0 != Some(region) {
+            self.mode = (Some(region), self.erased.mode(region));
+        }
         self.observer.record(&Record {
             t,
             x: self.erased.slice(&x),
-            region: Sys::index(region),
+            mode: &self.mode.1,
             psi: &self.psi,
             size: &self.size,
             level: &self.level,
@@ -185,9 +206,11 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_,
         self.observer.transition(&Crossed {
             t: transition.t,
             x: self.erased.slice(&transition.x).to_vec(),
+            after: self.erased.slice(&transition.after).to_vec(),
+            kind: transition.kind,
             interface: transition.interface,
-            from: Sys::index(transition.from),
-            to: Sys::index(transition.to),
+            from: self.erased.mode(transition.from),
+            to: self.erased.mode(transition.to),
             rate_from: transition.rate_from,
             rate_to: transition.rate_to,
         })
@@ -263,7 +286,7 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Together<'_, Sys, N> {
         let arrival = |end: End<Sys::Region, N>| Arrival {
             t: end.point.t,
             x: erased.slice(&end.point.x).to_vec(),
-            region: Sys::index(end.point.region),
+            mode: erased.mode(end.point.region),
             statistics: end.statistics,
         };
         let ensemble = Ensemble::new(method).lanes(self.parallelism.lanes);

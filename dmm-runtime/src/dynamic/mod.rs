@@ -62,8 +62,8 @@ use crate::error::Error;
 pub use erased::Erased;
 pub use method::{MethodChoice, MethodVisitor};
 pub use run::{
-    AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes, Parallelism,
-    Record, Start, Unobserved,
+    AnyMode, AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes,
+    Parallelism, Record, Start, Unobserved,
 };
 
 /// A system of any dimension, with its present parameters. C chooses the methods.

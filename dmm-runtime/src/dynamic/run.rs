@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use crate::contract::Side;
 use crate::error::Error;
 use crate::method::Statistics;
+use crate::output::TransitionKind;
 
 /// An initial value problem, x(0) = x₀ until an end time.
 #[derive(Clone, PartialEq, Debug)]
@@ -50,6 +52,18 @@ impl OutputTimes {
     }
 }
 
+/// What a run is in: a region, with what is constant between events.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct AnyMode {
+    /// Index of the region.
+    pub region: usize,
+    /// The discrete states, in the order of [`Metadata::discrete`](crate::Metadata::discrete).
+    pub discrete: Vec<f64>,
+    /// The sides of the interfaces in [`Metadata::free`](crate::Metadata::free); nothing for those that
+    /// it slides on.
+    pub sides: Vec<Option<Side>>,
+}
+
 /// A point of a run, with the conserved quantities of its region.
 #[derive(Clone, Copy, Debug)]
 pub struct Record<'a> {
@@ -57,8 +71,8 @@ pub struct Record<'a> {
     pub t: f64,
     /// State.
     pub x: &'a [f64],
-    /// Index of the region.
-    pub region: usize,
+    /// Mode.
+    pub mode: &'a AnyMode,
     /// ψ(t, x)
     pub psi: &'a [f64],
     /// The largest Σ|terms of ψ(t, x)| since the entry to the region. (At a single point the
@@ -125,8 +139,8 @@ pub struct Arrival {
     pub t: f64,
     /// State.
     pub x: Vec<f64>,
-    /// Index of the region.
-    pub region: usize,
+    /// Mode.
+    pub mode: AnyMode,
     /// Counters.
     pub statistics: Statistics,
 }
@@ -150,19 +164,23 @@ pub struct Parallelism {
     pub lanes: bool,
 }
 
-/// A transition of a run.
+/// A transition of a run; see [`Transition`](crate::Transition).
 #[derive(Clone, PartialEq, Debug)]
 pub struct Crossed {
     /// t̂*
     pub t: f64,
-    /// x̂*
+    /// x̂*, the state in front of the transition.
     pub x: Vec<f64>,
+    /// The state behind it.
+    pub after: Vec<f64>,
+    /// What happened.
+    pub kind: TransitionKind,
     /// Index of the interface.
     pub interface: usize,
-    /// Index of the region that is left.
-    pub from: usize,
-    /// Index of the region that is entered.
-    pub to: usize,
+    /// The mode that is left.
+    pub from: AnyMode,
+    /// The mode that is entered.
+    pub to: AnyMode,
     /// dg/dt under the field that is left.
     pub rate_from: f64,
     /// dg/dt under the field that is entered.

@@ -8,7 +8,7 @@ use crate::driver::{Accumulation, Run, enter};
 use crate::error::Error;
 use crate::method::taylor::{self, Taylor};
 use crate::method::{Active, Cursor, Ended, Statistics};
-use crate::output::{End, EndedBy, Halted, Point};
+use crate::output::{End, EndedBy, Halted, Point, TransitionKind};
 
 /// A crossing that is still to be judged.
 #[derive(Clone, Copy, Debug)]
@@ -119,7 +119,9 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
 
     /// The region entered has taken it.
     pub(super) fn arrived(&mut self) {
-        self.statistics.transitions += u64::from(self.crossing.is_some());
+        if self.crossing.is_some() {
+            TransitionKind::Crossed.count(&mut self.statistics);
+        }
         self.crossing = None;
         self.active = Active::default();
     }
@@ -132,7 +134,9 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             let entered = enter(&self.system, left, interface, self.time, &self.state);
             let next = entered?;
             (self.region, self.active) = (next.mode, next.active);
-            self.statistics.transitions += 1;
+            if let Some(transition) = next.transition {
+                transition.kind.count(&mut self.statistics);
+            }
             self.crossing = None;
         }
         Ok(())

@@ -4,9 +4,11 @@
 mod arrays;
 mod closures;
 mod csv;
+mod discrete;
 mod end;
 mod failure;
 mod interrupted;
+mod kind;
 mod observer;
 mod recorder;
 #[cfg(feature = "serde")]

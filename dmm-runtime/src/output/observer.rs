@@ -42,7 +42,7 @@ pub struct Transition<R, const N: usize> {
     pub t: f64,
     /// t̂* with the digits that a double cannot hold.
     pub time: Time,
-    /// x̂*
+    /// x̂*, the state in front of the transition.
     pub x: Vector<f64, N>,
     /// The state behind the transition: x̂*, unless an event has changed it.
     pub after: Vector<f64, N>,
@@ -53,9 +53,10 @@ pub struct Transition<R, const N: usize> {
     pub remainder: Vector<f64, N>,
     /// Index of the interface in [`Metadata::interfaces`](crate::Metadata::interfaces).
     pub interface: usize,
-    /// The region that is left.
+    /// The region that is left; of a system with events its [`Mode`](crate::Mode), which has the
+    /// discrete states before.
     pub from: R,
-    /// The region that is entered.
+    /// The region that is entered, with the discrete states behind the transition.
     pub to: R,
     /// dg/dt = ∂ₜg + ∇g·f at (t̂*, x̂*) under the vector field of `from`.
     pub rate_from: f64,

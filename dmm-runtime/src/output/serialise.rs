@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use serde::ser::{SerializeMap, SerializeSeq, SerializeStruct};
 use serde::{Serialize, Serializer};
 
-use super::{EndedBy, Point, Solution, Transition};
+use super::discrete::discrete;
+use super::{EndedBy, Point, Solution, Transition, TransitionKind};
 use crate::contract::System;
 use crate::method::Method;
 
@@ -19,28 +20,37 @@ impl Serialize for EndedBy {
     }
 }
 
+/// As its [name](TransitionKind::name).
+impl Serialize for TransitionKind {
+    fn serialize<Ser: Serializer>(&self, serializer: Ser) -> Result<Ser::Ok, Ser::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
 /// As `t`, `region` and `x`. The region is named as its variant is: names as they are declared are
 /// those of a [`Solution`].
 impl<R: Debug, const N: usize> Serialize for Point<R, N> {
     fn serialize<Ser: Serializer>(&self, serializer: Ser) -> Result<Ser::Ok, Ser::Error> {
         let region = format!("{:?}", self.region);
-        point(self, &region, N, serializer)
+        point(self, &region, (N, &[]), serializer)
     }
 }
 
-/// As `t`, `interface` (its index), `from`, `to`, `x`, `rate_from` and `rate_to`. Regions are named
-/// as their variants are: names as they are declared are those of a [`Solution`].
+/// As `t`, `interface` (its index), `from`, `to`, `kind`, `x`, `after`, `rate_from` and `rate_to`.
+/// Regions are named as their variants are: names as they are declared are those of a [`Solution`].
 impl<R: Debug, const N: usize> Serialize for Transition<R, N> {
     fn serialize<Ser: Serializer>(&self, serializer: Ser) -> Result<Ser::Ok, Ser::Error> {
         let (from, to) = (format!("{:?}", self.from), format!("{:?}", self.to));
-        transition(self, &self.interface, (&from, &to), N, serializer)
+        let sides = [(&*from, &[][..]), (&*to, &[])];
+        transition(self, &self.interface, sides, N, serializer)
     }
 }
 
-/// As `system` (its name), `states` (their names), `parameters` (values by name), `points`,
-/// `transitions`, `statistics` and `ended_by`. A point is `t`, `region` and `x`, a transition `t`,
-/// `interface`, `from`, `to`, `x`, `rate_from` and `rate_to`; regions and interfaces are named as they
-/// are declared.
+/// As `system` (its name), `states` and `discrete` (their names), `parameters` (values by name),
+/// `points`, `transitions`, `statistics` and `ended_by`. A point is `t`, `region` and `x`, a transition
+/// `t`, `interface`, `from`, `to`, `kind`, `x`, `after`, `rate_from` and `rate_to`; regions and interfaces
+/// are named as they are declared. Where there are discrete states, a point has their values as
+/// `discrete`, and a transition as `discrete` and `discrete_after`.
 impl<Sys: System<N>, Met: Method, const N: usize> Serialize for Solution<Sys, Met, N> {
     fn serialize<Ser: Serializer>(&self, serializer: Ser) -> Result<Ser::Ok, Ser::Error> {
         let (system, names) = (self.system(), self.system().metadata());
@@ -56,9 +66,11 @@ impl<Sys: System<N>, Met: Method, const N: usize> Serialize for Solution<Sys, Me
             value: transition,
         });
         let parameters = names.parameters.iter().zip(system.parameters());
-        let mut fields = serializer.serialize_struct("Solution", 7)?;
+        let discrete = names.declared_discrete().map(|(_, name)| name);
+        let mut fields = serializer.serialize_struct("Solution", 8)?;
         fields.serialize_field("system", names.name)?;
         fields.serialize_field("states", names.states)?;
+        fields.serialize_field("discrete", &discrete.collect::<Vec<_>>())?;
         fields.serialize_field("parameters", &Map(parameters))?;
         fields.serialize_field("points", &Sequence(points))?;
         fields.serialize_field("transitions", &Sequence(transitions))?;
@@ -78,15 +90,18 @@ struct Named<'a, Sys, T> {
 impl<Sys: System<N>, const N: usize> Serialize for Named<'_, Sys, Point<Sys::Region, N>> {
     fn serialize<Ser: Serializer>(&self, serializer: Ser) -> Result<Ser::Ok, Ser::Error> {
         let region = self.system.of_region(self.value.region).name;
-        point(self.value, region, self.states, serializer)
+        let discrete = discrete(self.system, self.value.region);
+        point(self.value, region, (self.states, &discrete), serializer)
     }
 }
 
 impl<Sys: System<N>, const N: usize> Serialize for Named<'_, Sys, Transition<Sys::Region, N>> {
     fn serialize<Ser: Serializer>(&self, serializer: Ser) -> Result<Ser::Ok, Ser::Error> {
         let interface = self.system.metadata().guard_name(self.value.interface);
-        let of = |region| self.system.of_region(region).name;
-        let sides = (of(self.value.from), of(self.value.to));
+        let modes = [self.value.from, self.value.to];
+        let names = modes.map(|mode| self.system.of_region(mode).name);
+        let values = modes.map(|mode| discrete(self.system, mode));
+        let sides = [(names[0], &values[0][..]), (names[1], &values[1])];
         transition(self.value, &interface, sides, self.states, serializer)
     }
 }
@@ -94,29 +109,41 @@ impl<Sys: System<N>, const N: usize> Serialize for Named<'_, Sys, Transition<Sys
 fn point<R, Ser: Serializer, const N: usize>(
     point: &Point<R, N>,
     region: &str,
-    states: usize,
+    (states, discrete): (usize, &[f64]),
     serializer: Ser,
 ) -> Result<Ser::Ok, Ser::Error> {
-    let mut fields = serializer.serialize_struct("Point", 3)?;
+    let count = 3 + usize::from(!discrete.is_empty());
+    let mut fields = serializer.serialize_struct("Point", count)?;
     fields.serialize_field("t", &point.t)?;
     fields.serialize_field("region", region)?;
     fields.serialize_field("x", &point.x.as_slice()[..states.min(N)])?;
+    if !discrete.is_empty() {
+        fields.serialize_field("discrete", discrete)?;
+    }
     fields.end()
 }
 
 fn transition<R, Ser: Serializer, const N: usize>(
     transition: &Transition<R, N>,
     interface: &impl Serialize,
-    (from, to): (&str, &str),
+    [(from, discrete), (to, discrete_after)]: [(&str, &[f64]); 2],
     states: usize,
     serializer: Ser,
 ) -> Result<Ser::Ok, Ser::Error> {
-    let mut fields = serializer.serialize_struct("Transition", 7)?;
+    let states = states.min(N);
+    let count = 9 + 2 * usize::from(!discrete.is_empty());
+    let mut fields = serializer.serialize_struct("Transition", count)?;
     fields.serialize_field("t", &transition.t)?;
     fields.serialize_field("interface", interface)?;
     fields.serialize_field("from", from)?;
     fields.serialize_field("to", to)?;
-    fields.serialize_field("x", &transition.x.as_slice()[..states.min(N)])?;
+    fields.serialize_field("kind", &transition.kind)?;
+    fields.serialize_field("x", &transition.x.as_slice()[..states])?;
+    fields.serialize_field("after", &transition.after.as_slice()[..states])?;
+    if !discrete.is_empty() {
+        fields.serialize_field("discrete", discrete)?;
+        fields.serialize_field("discrete_after", discrete_after)?;
+    }
     fields.serialize_field("rate_from", &transition.rate_from)?;
     fields.serialize_field("rate_to", &transition.rate_to)?;
     fields.end()

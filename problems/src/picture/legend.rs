@@ -1,6 +1,8 @@
 //! The legend of a panel: a strip below it, as high as its entries need.
 
-use kuva::render::render::{Primitive, TextAnchor};
+use std::borrow::Cow;
+
+use kuva::render::render::{PathData, Primitive, TextAnchor};
 
 use super::{Curve, Stroke};
 
@@ -15,23 +17,42 @@ const SPACE: f64 = 8.0;
 /// Of the strip on both sides.
 const MARGIN: f64 = 12.0;
 
-/// About the width of a text in the usual fonts, rather more than less.
-fn text_width(text: &str) -> f64 {
-    let widths = text.chars().map(|letter| match letter {
-        'm' | 'w' | 'M' | 'W' | '%' | '@' => 1.0,
+/// About the width of a letter in the usual fonts, rather more than less.
+fn letter_width(letter: char) -> f64 {
+    let width = match letter {
+        'm' | 'w' | 'M' | 'W' | '%' | '@' | '…' => 1.0,
         'f' | 'i' | 'j' | 'l' | 'r' | 't' | 'I' => 0.42,
         ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | '(' | ')' | '[' | ']' => 0.42,
         'A'..='Z' | '<' | '>' | '=' | '+' | '−' => 0.84,
         _ => 0.66,
-    });
-    f64::from(SIZE) * widths.sum::<f64>()
+    };
+    f64::from(SIZE) * width
 }
 
-/// The curves with an entry, and how many of them stand side by side.
-fn arranged(curves: &[Curve], width: f64) -> (Vec<(&Curve, &str)>, usize, f64) {
+fn text_width(text: &str) -> f64 {
+    text.chars().map(letter_width).sum()
+}
+
+/// A text that is no wider than `room`, the end of a longer one left out.
+fn fitted(text: &str, room: f64) -> Cow<'_, str> {
+    if text_width(text) <= room {
+        return text.into();
+    }
+    let mut width = letter_width('…');
+    let fits = |letter: &char| {
+        width += letter_width(*letter);
+        width <= room
+    };
+    let kept: String = text.chars().take_while(fits).collect();
+    format!("{}…", kept.trim_end()).into()
+}
+
+/// The curves with an entry, how many of them stand side by side, and how far from one another.
+fn arranged(curves: &[Curve], width: f64) -> (Vec<(&Curve, Cow<'_, str>)>, usize, f64) {
+    let room = width - 2.0 * MARGIN - SAMPLE - 2.0 * SPACE;
     let labelled = curves.iter();
-    let labelled: Vec<(&Curve, &str)> = labelled
-        .filter_map(|curve| Some((curve, curve.label.as_deref()?)))
+    let labelled: Vec<(&Curve, Cow<'_, str>)> = labelled
+        .filter_map(|curve| Some((curve, fitted(curve.label.as_deref()?, room))))
         .collect();
     let widths = labelled.iter().map(|(_, label)| text_width(label));
     let column = SAMPLE + 2.0 * SPACE + widths.fold(0.0, f64::max);
@@ -58,7 +79,7 @@ pub(super) fn entries(curves: &[Curve], width: f64) -> Vec<Primitive> {
         primitives.push(Primitive::Text {
             x: x + SAMPLE + SPACE,
             y: y + 0.35 * f64::from(SIZE),
-            content: label.to_owned(),
+            content: label.into_owned(),
             size: SIZE,
             anchor: TextAnchor::Start,
             rotate: None,
@@ -94,6 +115,18 @@ fn sample(curve: &Curve, x: f64, y: f64) -> Vec<Primitive> {
         stroke: None,
         stroke_width: None,
     };
+    let shape = |corners: &[(f64, f64)]| {
+        let corners = corners.iter();
+        let corners = corners.map(|(right, down)| format!("{},{}", middle + right, y + down));
+        Primitive::Path(Box::new(PathData {
+            d: format!("M{} Z", corners.collect::<Vec<_>>().join(" L")),
+            fill: Some(colour()),
+            stroke: colour(),
+            stroke_width: 0.5,
+            opacity: None,
+            stroke_dasharray: None,
+        }))
+    };
     match curve.stroke {
         Stroke::Solid => vec![across(1.8)],
         Stroke::Thin | Stroke::Fine => vec![across(1.2)],
@@ -109,6 +142,8 @@ fn sample(curve: &Curve, x: f64, y: f64) -> Vec<Primitive> {
             stroke_width: None,
             opacity: None,
         }],
+        Stroke::Triangles => vec![shape(&[(0.0, -5.0), (4.5, 4.0), (-4.5, 4.0)])],
+        Stroke::Diamonds => vec![shape(&[(0.0, -5.0), (5.0, 0.0), (0.0, 5.0), (-5.0, 0.0)])],
         Stroke::Crosses => [-4.0, 4.0]
             .map(|half| line(middle - 4.0, y - half, middle + 4.0, y + half, 1.5, None))
             .into(),
@@ -122,7 +157,7 @@ mod tests {
     /// Every text ends before the panel does, however many and long the entries are.
     #[test]
     fn entries_stand_inside() {
-        for (count, letters) in [(1, 5), (9, 30), (40, 3), (3, 50)] {
+        for (count, letters) in [(1, 5), (9, 30), (40, 3), (3, 50), (2, 200)] {
             let curve = || Curve {
                 label: Some("m".repeat(letters)),
                 points: Vec::new(),
@@ -133,13 +168,14 @@ mod tests {
             let (width, height) = (700.0, height(&curves, 700.0));
             let texts = entries(&curves, width).into_iter();
             let places = texts.filter_map(|primitive| match primitive {
-                Primitive::Text { x, y, .. } => Some((x, y)),
+                Primitive::Text { x, y, content, .. } => Some((x, y, content.chars().count())),
                 _ => None,
             });
-            let places: Vec<(f64, f64)> = places.collect();
+            let places: Vec<(f64, f64, usize)> = places.collect();
             assert_eq!(places.len(), count);
-            for (x, y) in places {
-                let end = x + 0.974 * f64::from(SIZE) * letters as f64;
+            for (x, y, shown) in places {
+                assert!(shown == letters || letters > 50, "{shown} of {letters}");
+                let end = x + 0.974 * f64::from(SIZE) * shown as f64;
                 assert!(x >= 0.0 && end <= width, "{letters}: {x}");
                 assert!(y <= height);
             }

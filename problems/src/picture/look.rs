@@ -10,6 +10,8 @@ const COLOURS: [&str; 7] = [
 ];
 /// For lines of comparison.
 pub const GREY: &str = "#888888";
+/// For what is not told apart.
+pub const LIGHT_GREY: &str = "#BBBBBB";
 /// From the first to the last of many curves in an order.
 const SHADES: [[f64; 3]; 5] = [
     [68.0, 1.0, 84.0],
@@ -36,6 +38,10 @@ pub enum Stroke {
     Squares,
     /// Crosses alone.
     Crosses,
+    /// Triangles alone.
+    Triangles,
+    /// Diamonds alone.
+    Diamonds,
 }
 
 /// Whether a line is broken, and how.

@@ -17,7 +17,7 @@ use kuva::prelude::{Layout, LinePlot, MarkerShape, Plot, ScatterPlot, render_mul
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
 pub use axis::{Axis, Scale, superscript};
-pub use look::{GREY, Line, Look, Stroke};
+pub use look::{GREY, LIGHT_GREY, Line, Look, Stroke};
 
 use axis::{range, tick_step};
 
@@ -43,12 +43,15 @@ impl Format {
     }
 }
 
+/// A point of a curve at which its line is interrupted.
+pub const BREAK: (f64, f64) = (f64::NAN, f64::NAN);
+
 /// A curve.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Curve {
     /// Its entry in the legend, if it has one.
     pub label: Option<String>,
-    /// Where it goes.
+    /// Where it goes; its line is interrupted at a [`BREAK`].
     pub points: Vec<(f64, f64)>,
     /// How it is drawn.
     pub stroke: Stroke,
@@ -125,24 +128,24 @@ impl Panel {
         self.curve(label, vec![line(first), line(last)], Stroke::Solid, look);
     }
 
-    /// The curve's finite points in the coordinates of the axes.
-    fn mapped(&self, curve: &Curve) -> Vec<(f64, f64)> {
-        curve
-            .points
-            .iter()
-            .map(|&(x, y)| (self.x.scale.map(x), self.y.scale.map(y)))
-            .filter(|(x, y)| x.is_finite() && y.is_finite())
-            .collect()
+    /// The curve's finite points in the coordinates of the axes, piece by piece between breaks.
+    fn mapped(&self, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
+        let pieces = curve.points.split(|point| point.0.is_nan());
+        let map = |&(x, y): &(f64, f64)| (self.x.scale.map(x), self.y.scale.map(y));
+        let finite = |(x, y): &(f64, f64)| x.is_finite() && y.is_finite();
+        let pieces = pieces.map(|piece| piece.iter().map(map).filter(finite).collect::<Vec<_>>());
+        pieces.filter(|piece| !piece.is_empty()).collect()
     }
 
     fn layout(
         &self,
         plots: &[Plot],
-        data: &[Vec<(f64, f64)>],
+        data: &[Vec<Vec<(f64, f64)>>],
         (width, height): (f64, f64),
     ) -> Layout {
-        let xs = range(data.iter().flatten().map(|p| p.0), self.x.scale);
-        let ys = range(data.iter().flatten().map(|p| p.1), self.y.scale);
+        let points = || data.iter().flatten().flatten();
+        let xs = range(points().map(|p| p.0), self.x.scale);
+        let ys = range(points().map(|p| p.1), self.y.scale);
         let mut layout = Layout::auto_from_plots(plots)
             .with_title(self.title.clone())
             .with_x_label(self.x.label.clone())
@@ -158,9 +161,14 @@ impl Panel {
             .with_tick_size(11)
             .with_body_size(11)
             .with_box_axes();
+        let mut steps = [tick_step(xs, self.x.scale), tick_step(ys, self.y.scale)];
+        if self.equal_aspect {
+            // the shorter range is drawn as long as the other
+            steps = [steps[0].max(steps[1]); 2];
+        }
         layout = layout
-            .with_x_tick_step(tick_step(xs, self.x.scale))
-            .with_y_tick_step(tick_step(ys, self.y.scale))
+            .with_x_tick_step(steps[0])
+            .with_y_tick_step(steps[1])
             .with_width(width)
             .with_height(height);
         layout.show_legend = false;
@@ -293,37 +301,57 @@ fn add(scene: &mut Scene, (x, y): (f64, f64), part: Vec<Primitive>) {
     scene.add(Primitive::GroupEnd);
 }
 
-fn draw(curve: &Curve, data: &[(f64, f64)]) -> Vec<Plot> {
-    let line = |width: f64| -> Plot {
-        LinePlot::new()
-            .with_data(data.to_vec())
-            .with_color(&*curve.look.colour)
-            .with_line_style(curve.look.line.style())
-            .with_stroke_width(width)
-            .into()
+/// The plots of a curve: a line for each piece, the marks of all in one.
+fn draw(curve: &Curve, pieces: &[Vec<(f64, f64)>]) -> Vec<Plot> {
+    let lines = |width: f64| -> Vec<Plot> {
+        let line = |piece: &Vec<(f64, f64)>| -> Plot {
+            LinePlot::new()
+                .with_data(piece.clone())
+                .with_color(&*curve.look.colour)
+                .with_line_style(curve.look.line.style())
+                .with_stroke_width(width)
+                .into()
+        };
+        pieces.iter().map(line).collect()
     };
-    let dots = |size: f64, marker: MarkerShape| -> Plot {
-        ScatterPlot::new()
-            .with_data(data.to_vec())
+    let marks = |size: f64, marker: MarkerShape| -> Vec<Plot> {
+        let marks = ScatterPlot::new()
+            .with_data(pieces.concat())
             .with_color(&*curve.look.colour)
             .with_marker(marker)
-            .with_size(size)
-            .into()
+            .with_size(size);
+        vec![marks.into()]
     };
     match curve.stroke {
-        Stroke::Solid => vec![line(1.5)],
-        Stroke::Thin => vec![line(0.8)],
-        Stroke::Fine => vec![dots(0.8, MarkerShape::Circle)],
-        Stroke::Marked => vec![line(1.5), dots(3.5, MarkerShape::Circle)],
-        Stroke::Circles => vec![dots(5.0, MarkerShape::Circle)],
-        Stroke::Squares => vec![dots(4.5, MarkerShape::Square)],
-        Stroke::Crosses => vec![dots(4.0, MarkerShape::Cross)],
+        Stroke::Solid => lines(1.5),
+        Stroke::Thin => lines(0.8),
+        Stroke::Fine => marks(0.8, MarkerShape::Circle),
+        Stroke::Marked => {
+            let marks = marks(3.5, MarkerShape::Circle);
+            lines(1.5).into_iter().chain(marks).collect()
+        }
+        Stroke::Circles => marks(5.0, MarkerShape::Circle),
+        Stroke::Squares => marks(4.5, MarkerShape::Square),
+        Stroke::Crosses => marks(4.0, MarkerShape::Cross),
+        Stroke::Triangles => marks(4.0, MarkerShape::Triangle),
+        Stroke::Diamonds => marks(4.0, MarkerShape::Diamond),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_is_interrupted_at_breaks() {
+        let axis = || Axis::new("", Scale::Linear);
+        let mut panel = Panel::new("", axis(), axis());
+        let points = vec![(0.0, 0.0), (1.0, 0.0), BREAK, BREAK, (1.0, 1.0), (2.0, 1.0)];
+        panel.curve(None, points, Stroke::Solid, Look::nth(0));
+        let pieces = panel.mapped(&panel.curves[0]);
+        assert_eq!(pieces, [[(0.0, 0.0), (1.0, 0.0)], [(1.0, 1.0), (2.0, 1.0)]]);
+        assert_eq!(draw(&panel.curves[0], &pieces).len(), 2);
+    }
 
     #[test]
     fn writes_both_formats() {

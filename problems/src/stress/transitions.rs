@@ -88,7 +88,7 @@ struct Levels<'a> {
 
 impl AnyObserver for Levels<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        if let (true, Some(exact)) = (self.entered, self.exact.get(record.region)) {
+        if let (true, Some(exact)) = (self.entered, self.exact.get(record.mode.region)) {
             let error = (record.level[0] - exact).abs();
             self.growth.offer(self.transitions as f64, error);
             self.entered = false;

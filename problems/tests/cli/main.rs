@@ -8,6 +8,7 @@ mod refusals;
 mod run;
 mod show;
 mod studies;
+mod transitions;
 
 use std::fs;
 use std::path::PathBuf;

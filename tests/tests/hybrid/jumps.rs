@@ -62,6 +62,15 @@ fn a_transition_tells_what_has_happened() -> Result<(), Failure> {
     assert!((first.x[1] + 1.0).abs() < 1e-15 && (first.after[1] - 0.5).abs() < 1e-15);
     assert_eq!((first.from.discrete, first.to.discrete), ([0.0], [1.0]));
     assert_eq!(second.to.region, BallRegion::Everywhere);
+    let statistics = solution.statistics();
+    assert_eq!(
+        (
+            statistics.jumped,
+            statistics.crossed,
+            statistics.transitions
+        ),
+        (2, 0, 2)
+    );
     // between bounces the solution never crosses one
     assert!((solution.at(1.0 + 0.25)?[0] - (0.5 * 0.25 - 0.25 * 0.25 / 2.0)).abs() < 1e-15);
     assert_eq!(solution.last().map(|end| end.region.discrete), Some([2.0]));

@@ -58,6 +58,11 @@ fn a_switch_is_crossed_like_an_interface() -> Result<(), Error> {
     // one interface for both functions of x, by the name of its formula
     assert_eq!(system.metadata().interfaces, ["x"]);
     assert_eq!(first.kind, TransitionKind::Crossed);
+    let statistics = solution.statistics();
+    assert_eq!(
+        (statistics.crossed, statistics.jumped),
+        (statistics.transitions, 0)
+    );
     for region in [first.from, first.to] {
         let psi = system.conserved(region, first.t, &first.x);
         assert!((psi[0] - 0.5).abs() < 1e-15);

@@ -18,6 +18,7 @@ mod input;
 mod interrupt;
 mod invariants;
 mod list;
+mod mode;
 mod output;
 mod paper;
 mod portrait;

@@ -102,6 +102,12 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
+/// A number in a table for people: six digits of it.
+pub(crate) fn short(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse();
+    number(rounded.unwrap_or(value))
+}
+
 /// A table of text, columns aligned; the first column to the left, the others to the right.
 #[derive(Default)]
 pub(crate) struct Table {
@@ -180,5 +186,10 @@ mod tests {
         ] {
             assert_eq!(number(value), text);
         }
+        assert_eq!(
+            [1.0 / 3.0, -1e-17, 2.0].map(short),
+            ["0.333333", "-1e-17", "2"]
+        );
+        assert_eq!(short(f64::NAN), "NaN");
     }
 }

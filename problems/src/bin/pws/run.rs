@@ -1,6 +1,8 @@
 //! `pws run PROBLEM`, `pws run FILE`
 
+mod itinerary;
 mod recorder;
+mod transitions;
 
 use std::io::Write;
 use std::path::Path;
@@ -16,7 +18,7 @@ use crate::failure::Failure;
 use crate::input::{self, FormatOption};
 use crate::interrupt;
 use crate::output;
-use crate::portrait::{self, Trajectory};
+use crate::portrait::{self, Coordinate, Plane, Trajectory};
 use crate::scheme::{self, SchemeOptions};
 use crate::series;
 use recorder::{Finished, Recorder};
@@ -45,7 +47,8 @@ pub(crate) struct Arguments {
     /// always.
     #[arg(long, default_value_t = 1, value_parser = input::count)]
     every: u64,
-    /// The two states of the phase portrait [default: the first two].
+    /// The two states of the phase portrait, or `t` and a state [default: the first two, or `t` and
+    /// the only one].
     #[arg(long, value_name = "x,y")]
     plane: Option<String>,
     #[command(flatten)]
@@ -119,23 +122,27 @@ fn check(problem: &Problem, run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-fn plane(problem: &Problem, given: Option<&str>) -> Result<(usize, usize), Failure> {
+fn plane(problem: &Problem, given: Option<&str>) -> Result<Plane, Failure> {
     let Some(text) = given else {
-        return Ok((0, 1.min(problem.states().len() - 1)));
+        return Ok(match problem.states() {
+            [_] => (Coordinate::Time, Coordinate::State(0)),
+            _ => (Coordinate::State(0), Coordinate::State(1)),
+        });
+    };
+    let coordinate = |name: &str| match name.trim() {
+        "t" => Ok(Coordinate::Time),
+        name => input::state(problem, name).map(Coordinate::State),
     };
     match text.split_once(',') {
-        Some((x, y)) => Ok((
-            input::state(problem, x.trim())?,
-            input::state(problem, y.trim())?,
-        )),
+        Some((x, y)) => Ok((coordinate(x)?, coordinate(y)?)),
         None => Err(Failure::Request(format!("`{text}` is not of the form x,y"))),
     }
 }
 
 fn pictures(
     problem: &Problem,
-    finished: &Finished,
-    plane: (usize, usize),
+    finished: &Finished<'_>,
+    plane: Plane,
     out: &mut Directory,
     format: Format,
 ) -> Result<(), Failure> {
@@ -147,15 +154,15 @@ fn pictures(
     let title = problem.description().title;
     let trajectory = Trajectory {
         points: kept,
-        crossings: &finished.crossings,
+        modes: &finished.modes,
+        marks: &finished.marks,
         ends_there: shown.is_empty(),
     };
-    let phase = portrait::phase(
-        problem,
-        &trajectory,
-        plane,
-        &format!("phase portrait{shown}"),
-    );
+    let what = match plane {
+        (Coordinate::State(_), Coordinate::State(_)) => "phase portrait",
+        _ => "trajectory",
+    };
+    let phase = portrait::phase(problem, &trajectory, plane, &format!("{what}{shown}"));
     let series = series::time_series(problem, kept, &format!("time series{shown}"));
     let errors = series::errors(&finished.errors, "ψ − ψ at entry", "conservation error");
     let wide = |panels| Picture {
@@ -167,17 +174,19 @@ fn pictures(
         panel_size: (560.0, 500.0),
         ..Picture::row(title, vec![panel])
     };
-    let drawn = [
+    let mut drawn = vec![
         out.picture("phase", &square(phase), format),
         out.picture("series", &wide(series), format),
-        out.picture("conservation", &wide(vec![errors]), format),
     ];
+    if !finished.errors.is_empty() {
+        drawn.push(out.picture("conservation", &wide(vec![errors]), format));
+    }
     // one that cannot be drawn does not keep the others from it
     drawn.into_iter().collect()
 }
 
 /// What a run was and where it got to.
-fn summarise(problem: &Problem, run: &Run, finished: &Finished) -> Result<(), Failure> {
+fn summarise(problem: &Problem, run: &Run, finished: &Finished<'_>) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     writeln!(
         out,
@@ -191,12 +200,14 @@ fn summarise(problem: &Problem, run: &Run, finished: &Finished) -> Result<(), Fa
         output::number(finished.t),
         scheme::describe(run)
     )?;
-    writeln!(out, "transitions: {}", finished.transitions)?;
-    writeln!(
-        out,
-        "max |ψ − ψ_ref| within segments: {:.2e} ({:.2} ulp of the size of ψ's terms)",
-        finished.worst.0, finished.worst.1
-    )?;
+    if !finished.errors.is_empty() {
+        writeln!(
+            out,
+            "max |ψ − ψ_ref| within segments: {:.2e} ({:.2} ulp of the size of ψ's terms)",
+            finished.worst.0, finished.worst.1
+        )?;
+    }
+    finished.itinerary.print()?;
     Ok(())
 }
 

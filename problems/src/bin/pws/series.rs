@@ -2,9 +2,10 @@
 
 use std::ops::Range;
 
-use dmm_problems::picture::{Axis, Look, Panel, Scale, Stroke, superscript};
+use dmm_problems::picture::{Axis, BREAK, Look, Panel, Scale, Stroke, superscript};
 use dmm_problems::problem::Problem;
 
+use crate::mode;
 use crate::output;
 use crate::portrait::Kept;
 
@@ -26,26 +27,46 @@ fn look(k: usize, count: usize) -> Look {
     }
 }
 
-/// The states against time: a panel for each group of them, and for a few others together.
+/// The states against time: a panel for each group of them, and for a few others together. Then the
+/// discrete states in the same way.
 pub(crate) fn time_series(problem: &Problem, points: &[Kept], title: &str) -> Vec<Panel> {
-    let names = problem.states();
-    let panels = panels_of(names).into_iter();
-    let panels = panels.enumerate().map(|(number, (label, states))| {
-        let title = if number == 0 { title } else { "" };
+    let mut panels = panels(problem.states(), points, |point| &point.x);
+    let discrete = mode::discrete_names(problem);
+    panels.extend(self::panels(&discrete, points, |point| &point.discrete));
+    if let Some(first) = panels.first_mut() {
+        title.clone_into(&mut first.title);
+    }
+    panels
+}
+
+/// Panels of values with names.
+fn panels(names: &[&str], points: &[Kept], values: impl Fn(&Kept) -> &[f64]) -> Vec<Panel> {
+    let panels = panels_of(names).into_iter().map(|(label, places)| {
         let axis = |text: &str| Axis::new(text, Scale::Linear);
-        let mut panel = Panel::new(title, axis("t"), axis(&label));
-        let count = states.len();
-        for (k, state) in states.enumerate() {
-            let curve = points
-                .iter()
-                .map(|point| (point.t, point.x[state]))
-                .collect();
-            let label = named(k, count).then(|| names[state].to_owned());
+        let mut panel = Panel::new("", axis("t"), axis(&label));
+        let count = places.len();
+        for (k, place) in places.enumerate() {
+            let curve = against_time(points, |point| values(point)[place]);
+            let label = named(k, count).then(|| names[place].to_owned());
             panel.curve(label, curve, Stroke::Solid, look(k, count));
         }
         panel
     });
     panels.collect()
+}
+
+/// A value against time, interrupted where it jumps.
+fn against_time(points: &[Kept], value: impl Fn(&Kept) -> f64) -> Vec<(f64, f64)> {
+    let mut curve: Vec<(f64, f64)> = Vec::with_capacity(points.len());
+    for point in points {
+        let (t, value) = (point.t, value(point));
+        let jumps = |last: &(f64, f64)| last.0 == t && last.1 != value;
+        if curve.last().is_some_and(jumps) {
+            curve.push(BREAK);
+        }
+        curve.push((t, value));
+    }
+    curve
 }
 
 /// What each panel shows: the name of a group, or those of states that are in none.
@@ -169,6 +190,22 @@ mod tests {
         assert_eq!(counts, [7, 1]);
         let shades: Vec<usize> = (0..32).filter(|&k| named(k, 32)).collect();
         assert_eq!(shades, [0, 7, 15, 23, 31]);
+    }
+
+    #[test]
+    fn a_jump_interrupts_a_curve() {
+        let kept = |t: f64, x: f64| Kept {
+            t,
+            x: vec![x],
+            discrete: Vec::new(),
+            mode: 0,
+        };
+        let points = [(0.0, 1.0), (1.0, 0.5), (1.0, -0.5), (2.0, 0.0), (2.0, 0.0)];
+        let points = points.map(|(t, x)| kept(t, x));
+        let curve = against_time(&points, |point| point.x[0]);
+        let pieces: Vec<&[(f64, f64)]> = curve.split(|point| point.0.is_nan()).collect();
+        assert_eq!(pieces[0], [(0.0, 1.0), (1.0, 0.5)]);
+        assert_eq!(pieces[1].len(), 3);
     }
 
     #[test]

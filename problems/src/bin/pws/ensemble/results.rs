@@ -23,6 +23,8 @@ pub(crate) type Waiting = RefCell<VecDeque<Row>>;
 pub(crate) struct Results {
     table: Table,
     regions: Vec<&'static str>,
+    /// The discrete states that are written.
+    discrete: Vec<usize>,
     progress: Progress,
     /// How many members there will be, if that is known.
     count: Option<u64>,
@@ -50,6 +52,8 @@ impl Results {
         columns.extend(states.iter().map(|name| number(&format!("{name}(0)"))));
         columns.extend([number("t"), column("region", Kind::Text)]);
         columns.extend(states.iter().map(|name| number(name)));
+        let discrete: Vec<_> = problem.metadata().declared_discrete().collect();
+        columns.extend(discrete.iter().map(|(_, name)| number(name)));
         columns.extend(["steps", "transitions"].map(|name| column(name, Kind::Count)));
         columns.push(column("failure", Kind::Text));
         Ok(Self {
@@ -61,7 +65,11 @@ impl Results {
             failures: 0,
             steps: 0,
             transitions: 0,
-            widths: (parameters.len() + states.len(), states.len() + 4),
+            widths: (
+                parameters.len() + states.len(),
+                states.len() + discrete.len() + 4,
+            ),
+            discrete: discrete.into_iter().map(|(index, _)| index).collect(),
         })
     }
 
@@ -112,10 +120,13 @@ impl Results {
         }
         match arrival {
             Some(arrival) => {
-                let region = self.regions.get(arrival.region).copied();
+                let region = self.regions.get(arrival.mode.region).copied();
                 let region = region.unwrap_or_default().to_owned();
                 cells.extend([Cell::Number(arrival.t), Cell::Text(region)]);
                 cells.extend(arrival.x.into_iter().map(Cell::Number));
+                let discrete = self.discrete.iter();
+                let discrete = discrete.map(|&index| arrival.mode.discrete.get(index).copied());
+                cells.extend(discrete.map(|value| value.map_or(Cell::Missing, Cell::Number)));
                 let counts = arrival.statistics;
                 cells.extend([counts.steps, counts.transitions].map(Cell::Count));
                 self.steps += counts.steps;

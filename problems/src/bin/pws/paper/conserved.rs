@@ -126,7 +126,7 @@ struct Errors<'a> {
 
 impl AnyObserver for Errors<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        let error = record.psi[0] - self.exact[record.region];
+        let error = record.psi[0] - self.exact[record.mode.region];
         self.thinned.offer(record.t, error);
         self.worst = self.worst.max(error.abs());
         if self.records.is_multiple_of(EVERY) {

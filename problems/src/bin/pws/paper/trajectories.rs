@@ -9,8 +9,9 @@ use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 use super::report::{Report, SYSTEMS};
 use crate::failure::Failure;
 use crate::input;
+use crate::mode::Modes;
 use crate::output;
-use crate::portrait::{self, Kept};
+use crate::portrait::{self, Coordinate, Kept};
 
 /// Starting points, all on closed orbits except the last elliptic one, which comes from
 /// infinity and goes back.
@@ -33,22 +34,25 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
     for (system, (name, _)) in SYSTEMS.iter().enumerate() {
         let problem = input::problem(name, &[])?;
         let regions = problem.regions();
+        let mut modes = Modes::new(&problem);
         let mut all = Vec::new();
         for (number, start) in STARTS[system].iter().enumerate() {
-            let trajectory = trajectory(&problem, start, T_END[system])?;
-            for point in &trajectory {
+            let near = trajectory(&problem, &mut modes, start, T_END[system])?;
+            for (region, point) in near.regions.iter().zip(&near.points) {
                 csv.row([
                     (*name).to_owned(),
                     (number + 1).to_string(),
                     output::number(point.t),
                     output::number(point.x[0]),
                     output::number(point.x[1]),
-                    regions[point.region].to_owned(),
+                    regions[*region].to_owned(),
                 ])?;
             }
-            all.push(trajectory);
+            all.push(near.points);
         }
-        let mut panel = portrait::phases(&problem, &all, (0, 1), problem.description().title);
+        let plane = (Coordinate::State(0), Coordinate::State(1));
+        let title = problem.description().title;
+        let mut panel = portrait::phases(&problem, &all, &modes, plane, title);
         panel.equal_aspect = true;
         panels.push(panel);
     }
@@ -59,7 +63,12 @@ pub(super) fn figure(report: &mut Report) -> Result<(), Failure> {
         .picture("fig2_trajectories", &picture, report.format)
 }
 
-fn trajectory(problem: &Problem, start: &[f64; 2], t_end: f64) -> Result<Vec<Kept>, Failure> {
+fn trajectory<'a, 'b>(
+    problem: &'b Problem,
+    modes: &'b mut Modes<'a>,
+    start: &[f64; 2],
+    t_end: f64,
+) -> Result<Near<'a, 'b>, Failure> {
     let run = Run {
         method: MethodName::Symmetric,
         step_size: STEP_SIZE,
@@ -67,34 +76,49 @@ fn trajectory(problem: &Problem, start: &[f64; 2], t_end: f64) -> Result<Vec<Kep
         t_end,
         ..problem.default_run()
     };
-    let mut near = Near::default();
+    let mut near = Near {
+        problem,
+        modes,
+        points: Vec::new(),
+        regions: Vec::new(),
+        records: 0,
+    };
     problem.integrate(&run, &mut near)?;
-    Ok(near.points)
+    Ok(near)
 }
 
 /// Keeps every fifth point and both sides of transitions, until the orbit is far away.
-#[derive(Default)]
-struct Near {
+struct Near<'a, 'b> {
+    problem: &'b Problem,
+    modes: &'b mut Modes<'a>,
     points: Vec<Kept>,
+    /// The region of each point.
+    regions: Vec<usize>,
     records: u64,
 }
 
-impl AnyObserver for Near {
+impl AnyObserver for Near<'_, '_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         if record.x.iter().any(|x| x.abs() > NEAR) {
             return ControlFlow::Break(());
         }
-        let kept = |region| Kept {
-            t: record.t,
-            x: record.x.to_vec(),
-            region,
-        };
-        let before = self.points.last().map(|point| point.region);
-        if let Some(before) = before.filter(|before| *before != record.region) {
-            self.points.push(kept(before));
-            self.points.push(kept(record.region));
-        } else if self.records.is_multiple_of(5) {
-            self.points.push(kept(record.region));
+        let region = record.mode.region;
+        let before = self.regions.last().copied().zip(self.points.last());
+        let before = before.filter(|(before, _)| *before != region);
+        let enters = before.is_some();
+        let kept = Kept::new(self.problem, self.modes, record);
+        if let Some((before, last)) = before {
+            let mode = last.mode;
+            let near = Kept {
+                mode,
+                ..kept.clone()
+            };
+            self.regions.push(before);
+            self.points.push(near);
+        }
+        if enters || self.records.is_multiple_of(5) {
+            self.regions.push(region);
+            self.points.push(kept);
         }
         self.records += 1;
         ControlFlow::Continue(())

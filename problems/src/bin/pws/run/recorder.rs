@@ -3,12 +3,15 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use dmm_problems::problem::{AnyObserver, Crossed, OutputTimes, Problem, Record, Run};
+use dmm_problems::problem::{AnyMode, AnyObserver, Crossed, OutputTimes, Problem, Record, Run};
 
+use super::itinerary::Itinerary;
+use super::transitions::Transitions;
 use crate::directory::Directory;
 use crate::failure::Failure;
+use crate::mode::{self, Modes};
 use crate::output::{self, Csv};
-use crate::portrait::Kept;
+use crate::portrait::{Kept, Mark};
 use crate::progress::Progress;
 use crate::series::Thinned;
 
@@ -32,8 +35,7 @@ pub(super) struct Recorder<'a> {
     /// For each region the columns of its conserved quantities.
     columns: Vec<Vec<usize>>,
     points: Csv,
-    /// Of a system with interfaces.
-    transitions: Option<Csv>,
+    transitions: Transitions<'a>,
     every: u64,
     /// Whether points of output are written, rather than the ends of steps.
     writes_outputs: bool,
@@ -43,14 +45,13 @@ pub(super) struct Recorder<'a> {
     /// The last record, and whether it is in the file.
     last: Snapshot,
     written: bool,
-    /// Its region.
-    region: Option<usize>,
+    /// Whether the next record is the far side of a transition, or the start.
+    enters: bool,
     kept: Vec<Kept>,
     keep_every: u64,
     errors: Vec<(String, Thinned)>,
     worst: (f64, f64),
-    crossings: Vec<Kept>,
-    transition_count: u64,
+    modes: Modes<'a>,
     failure: Option<Failure>,
     is_interrupted: bool,
     t_end: f64,
@@ -62,7 +63,7 @@ pub(super) struct Recorder<'a> {
 struct Snapshot {
     t: f64,
     x: Vec<f64>,
-    region: usize,
+    mode: AnyMode,
     psi: Vec<f64>,
     size: Vec<f64>,
     level: Vec<f64>,
@@ -70,7 +71,10 @@ struct Snapshot {
 
 impl Snapshot {
     fn take(&mut self, record: &Record<'_>) {
-        (self.t, self.region) = (record.t, record.region);
+        self.t = record.t;
+        if self.mode != *record.mode {
+            self.mode = record.mode.clone();
+        }
         let copy = |to: &mut Vec<f64>, from: &[f64]| {
             to.clear();
             to.extend_from_slice(from);
@@ -85,7 +89,7 @@ impl Snapshot {
         Record {
             t: self.t,
             x: &self.x,
-            region: self.region,
+            mode: &self.mode,
             psi: &self.psi,
             size: &self.size,
             level: &self.level,
@@ -99,11 +103,8 @@ const TOLD: u64 = 16;
 
 /// Points kept for phase portrait and time series.
 const LARGEST_KEPT: usize = 20_000;
-/// Crossings kept for the phase portrait.
-const MOST_CROSSINGS: usize = 2_000;
-
 /// What is left of a recorder.
-pub(super) struct Finished {
+pub(super) struct Finished<'a> {
     /// A file that could not be written.
     pub(super) failure: Option<Failure>,
     /// Whether Ctrl-C ended the run.
@@ -112,9 +113,10 @@ pub(super) struct Finished {
     pub(super) kept: Vec<Kept>,
     pub(super) errors: Vec<(String, Vec<(f64, f64)>)>,
     pub(super) worst: (f64, f64),
-    /// The first crossings.
-    pub(super) crossings: Vec<Kept>,
-    pub(super) transitions: u64,
+    pub(super) modes: Modes<'a>,
+    /// The first transitions, for the pictures.
+    pub(super) marks: Vec<Mark>,
+    pub(super) itinerary: Itinerary<'a>,
     pub(super) t: f64,
 }
 
@@ -130,17 +132,11 @@ impl<'a> Recorder<'a> {
         let states = problem.states();
         let mut header = vec!["t".to_owned(), "region".to_owned()];
         header.extend(states.iter().map(|state| (*state).to_owned()));
+        let discrete = mode::discrete_names(problem).into_iter();
+        header.extend(discrete.map(str::to_owned));
         header.extend(names.iter().map(|name| (*name).to_owned()));
         header.extend(names.iter().map(|name| format!("{name}_error")));
         let points = out.csv("points.csv", &header)?;
-        let mut header: Vec<&str> = vec!["t", "interface", "from", "to"];
-        header.extend(states);
-        header.extend(["rate_from", "rate_to"]);
-        let transitions = match problem.interfaces() {
-            // a smooth system has none: no file that says only that
-            [] => None,
-            _ => Some(out.csv("transitions.csv", &header)?),
-        };
         let column = |name: &&str| {
             names
                 .iter()
@@ -157,7 +153,7 @@ impl<'a> Recorder<'a> {
                 .collect(),
             regions,
             points,
-            transitions,
+            transitions: Transitions::create(problem, out)?,
             every,
             writes_outputs,
             // the start counts, and is no output
@@ -165,7 +161,7 @@ impl<'a> Recorder<'a> {
             records: 0,
             last: Snapshot::default(),
             written: true,
-            region: None,
+            enters: true,
             kept: Vec::new(),
             // room for transitions, which are all kept
             keep_every: (steps / (0.8 * LARGEST_KEPT as f64))
@@ -176,8 +172,7 @@ impl<'a> Recorder<'a> {
                 .map(|name| ((*name).to_owned(), Thinned::new()))
                 .collect(),
             worst: (0.0, 0.0),
-            crossings: Vec::new(),
-            transition_count: 0,
+            modes: Modes::new(problem),
             failure: None,
             is_interrupted: false,
             t_end: run.t_end,
@@ -189,13 +184,15 @@ impl<'a> Recorder<'a> {
     fn fields(&self, record: &Record<'_>) -> Vec<String> {
         let mut fields = vec![
             output::number(record.t),
-            self.regions[record.region].to_owned(),
+            self.regions[record.mode.region].to_owned(),
         ];
         fields.extend(record.x.iter().map(|&value| output::number(value)));
+        let discrete = mode::discrete(self.problem, record.mode).into_iter();
+        fields.extend(discrete.map(output::number));
         let first = fields.len();
         let count = self.errors.len();
         fields.resize(first + 2 * count, String::new());
-        for (k, &column) in self.columns[record.region].iter().enumerate() {
+        for (k, &column) in self.columns[record.mode.region].iter().enumerate() {
             fields[first + column] = output::number(record.psi[k]);
             fields[first + count + column] = output::number(record.psi[k] - record.level[k]);
         }
@@ -203,12 +200,11 @@ impl<'a> Recorder<'a> {
     }
 
     fn store(&mut self, record: &Record<'_>) -> Result<(), Failure> {
-        let first = self.region != Some(record.region);
-        if first && !self.written {
+        if self.enters && !self.written {
             // the near side of the transition
             self.points.row(self.fields(&self.last.record()))?;
         }
-        let mut due = first;
+        let mut due = self.enters;
         if record.is_output == self.writes_outputs {
             due |= self.offered.is_multiple_of(self.every);
             self.offered += 1;
@@ -218,23 +214,22 @@ impl<'a> Recorder<'a> {
         }
         // an output at the end of a step is that point
         self.written = due || (self.written && record.t == self.last.t);
-        self.last.take(record);
         Ok(())
     }
 
+    /// Keeps a record for the pictures: of transitions both sides, else one at a time.
     fn keep(&mut self, record: &Record<'_>) {
-        let changed = self.region != Some(record.region);
-        let due = changed || self.records.is_multiple_of(self.keep_every);
-        if due && self.kept.len() < LARGEST_KEPT {
-            let (t, x) = (record.t, record.x.to_vec());
-            if changed && let Some(region) = self.region {
-                let x = x.clone();
-                self.kept.push(Kept { t, x, region });
+        let kept_until = self.kept.last().map(|kept| kept.t);
+        let due = self.records.is_multiple_of(self.keep_every) && kept_until != Some(record.t);
+        if (self.enters || due) && self.kept.len() < LARGEST_KEPT {
+            if self.enters && kept_until.is_some_and(|t| t != self.last.t) {
+                let near = Kept::new(self.problem, &mut self.modes, &self.last.record());
+                self.kept.push(near);
             }
-            let region = record.region;
-            self.kept.push(Kept { t, x, region });
+            let kept = Kept::new(self.problem, &mut self.modes, record);
+            self.kept.push(kept);
         }
-        for (k, &column) in self.columns[record.region].iter().enumerate() {
+        for (k, &column) in self.columns[record.mode.region].iter().enumerate() {
             let error = record.psi[k] - record.level[k];
             self.errors[column].1.offer(record.t, error);
         }
@@ -243,14 +238,15 @@ impl<'a> Recorder<'a> {
     }
 
     /// Writes what is left; a file that cannot be written leaves the rest as it is.
-    pub(super) fn finish(mut self) -> Finished {
+    pub(super) fn finish(mut self) -> Finished<'a> {
         self.progress.finish();
         let mut failure = self.failure.take();
         if !self.written && failure.is_none() {
             failure = self.points.row(self.fields(&self.last.record())).err();
         }
         let mut files = Vec::new();
-        let tables = [Some(self.points), self.transitions];
+        let (transitions, marks, itinerary) = self.transitions.into_parts();
+        let tables = [Some(self.points), transitions];
         for table in tables.into_iter().flatten() {
             match table.finish() {
                 Ok(file) => files.push(file),
@@ -267,8 +263,9 @@ impl<'a> Recorder<'a> {
                 .map(|(name, thinned)| (name, thinned.points().to_vec()))
                 .collect(),
             worst: self.worst,
-            crossings: self.crossings,
-            transitions: self.transition_count,
+            modes: self.modes,
+            marks,
+            itinerary,
             t: self.last.t,
         }
     }
@@ -289,7 +286,8 @@ impl AnyObserver for Recorder<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
         let result = self.store(record);
         self.keep(record);
-        self.region = Some(record.region);
+        self.last.take(record);
+        self.enters = false;
         self.records += 1;
         if self.records.is_multiple_of(TOLD) && self.progress.at(record.t / self.t_end).is_break() {
             self.is_interrupted = true;
@@ -299,28 +297,8 @@ impl AnyObserver for Recorder<'_> {
     }
 
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
-        self.transition_count += 1;
-        let interface = self
-            .problem
-            .interfaces()
-            .get(crossed.interface)
-            .unwrap_or(&"");
-        let mut fields = vec![
-            output::number(crossed.t),
-            (*interface).to_owned(),
-            self.regions[crossed.from].to_owned(),
-            self.regions[crossed.to].to_owned(),
-        ];
-        fields.extend(crossed.x.iter().map(|&value| output::number(value)));
-        fields.extend([crossed.rate_from, crossed.rate_to].map(output::number));
-        let result = match &mut self.transitions {
-            Some(transitions) => transitions.row(&fields),
-            None => Ok(()),
-        };
-        if self.crossings.len() < MOST_CROSSINGS {
-            let (t, x, region) = (crossed.t, crossed.x.clone(), crossed.to);
-            self.crossings.push(Kept { t, x, region });
-        }
+        self.enters = true;
+        let result = self.transitions.take(crossed);
         self.go_on(result)
     }
 }
