@@ -300,6 +300,12 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         }
     }
 
+    /// Whether a mode stays on one of the interfaces.
+    pub(super) fn rests(&self, mode: Sys::Region) -> bool {
+        let mut on = self.on.iter();
+        on.any(|&one| self.rate(mode, one) == 0.0 && self.rests_on(mode, one))
+    }
+
     /// Whether a mode stays on an interface that has to do with events alone, because nothing moves its
     /// switching function there: then it keeps the side that it had.
     fn rests_on(&self, mode: Sys::Region, interface: usize) -> bool {

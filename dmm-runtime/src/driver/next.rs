@@ -142,7 +142,7 @@ fn around<Sys: System<N>, const N: usize>(
         before = before.leaving(interface, side);
     }
     let met = (interface, rate);
-    let Some(happened) = happens(system, from, met, before.on(), t, state)? else {
+    let Some(mut happened) = happens(system, from, met, before.on(), t, state)? else {
         let (to, active) = before.entered().map_err(in_region)?;
         return Ok((to, active, None));
     };
@@ -151,7 +151,12 @@ fn around<Sys: System<N>, const N: usize>(
         was_on && value.abs() <= Reading::new(system, from, one, t, x).value.abs()
     };
     let after = Around::new(system, happened.mode, t, &happened.state.x, is_on);
-    let (to, active) = after.and_then(|after| after.entered()).map_err(in_region)?;
+    let after = after.map_err(in_region)?;
+    let (to, active) = after.entered().map_err(in_region)?;
+    if after.rests(to) {
+        // so that it is on the interface for ever
+        happened.state = State::new(happened.state.x);
+    }
     Ok((to, active, Some(happened)))
 }
 

@@ -57,6 +57,10 @@ impl<const P: usize> Series<P> {
 
     /// The first root before `horizon`, and how often zero was touched before.
     pub(crate) fn first_root(&self, horizon: f64) -> (Option<Root>, u32) {
+        if self.coefficients.iter().all(|&c| c == 0.0) {
+            // it rests on the guard
+            return (None, 0);
+        }
         let Roots { first, touches } = first_root(self.rest(), horizon, self.noise());
         let found = first.map(|(lower, upper)| Root {
             place: root(self.rest(), lower, upper),
