@@ -135,7 +135,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         }
         let mode = self.settled(sides.clone());
         let mode = mode.ok_or_else(|| self.error(ErrorKind::NoRegion))?;
-        let fits = self.on.iter().map(|&one| self.fit(mode, one, sides[one]));
+        let fits = self.on.iter().map(|&one| self.fit(mode, one, &sides));
         if groups.len() > 1 && fits.fold(Fit::Fits, Fit::and) != Fit::Fits {
             return Err(self.intersection());
         }
@@ -163,7 +163,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
                 continue;
             }
             around.push(mode);
-            let fits = group.iter().map(|&one| self.fit(mode, one, sides[one]));
+            let fits = group.iter().map(|&one| self.fit(mode, one, &sides));
             match fits.fold(Fit::Fits, Fit::and) {
                 Fit::Fits => entered.push((mode, choices)),
                 Fit::Open => open = true,
@@ -280,10 +280,13 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
 
     /// How the field of a mode fits to a choice at an interface: it leads to that side, or along the
     /// interface.
-    fn fit(&self, mode: Sys::Region, interface: usize, choice: Choice) -> Fit {
-        match choice {
+    fn fit(&self, mode: Sys::Region, interface: usize, choices: &[Choice]) -> Fit {
+        match choices[interface] {
             Some(side) if self.left == Some((interface, side)) => Fit::Fits,
             Some(side) if self.system.side(mode, interface).is_some() => {
+                if let Some(rate) = self.rate_of_end(interface, side, choices) {
+                    return Fit::of(-rate);
+                }
                 let rate = self.rate(mode, interface);
                 if rate == 0.0 && self.rests_on(mode, interface) {
                     let known = self.system.side(self.like, interface);
@@ -324,6 +327,28 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         })
     }
 
+    /// At the end of sliding on an interface, where the field of a side is tangential to it: how fast
+    /// that field turns to the interface, which says whether the solution slides on or leaves.
+    fn rate_of_end(&self, interface: usize, side: Side, choices: &[Choice]) -> Option<f64> {
+        let metadata = self.system.metadata();
+        if !metadata.sliding.contains(&interface) {
+            return None;
+        }
+        let mut choices = choices.to_vec();
+        choices[interface] = None;
+        let mode = self.settled(choices)?;
+        let region = self.system.of_region(mode);
+        let is_own = |guard: &usize| {
+            let end = metadata.end(*guard);
+            let is_own =
+                end.is_some_and(|end| (end.interface, end.side) == (interface, Some(side)));
+            is_own && region.sides.get(*guard).copied().flatten().is_some()
+        };
+        let guard = (metadata.interfaces.len()..metadata.first_condition()).find(is_own)?;
+        let reading = Reading::new(self.system, mode, guard, self.t, self.x);
+        reading.is_zero().then_some(reading.rate)
+    }
+
     /// Whether the ends of a sliding motion that belong to an interface are ahead of it.
     fn stays_on(&self, mode: Sys::Region, interface: usize) -> Fit {
         let metadata = self.system.metadata();
@@ -337,7 +362,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
         let readings = ahead.map(|guard| {
             let reading = Reading::new(self.system, mode, guard, self.t, self.x);
             if reading.is_zero() {
-                Fit::Open
+                Fit::of(reading.rate)
             } else {
                 Fit::of(reading.value)
             }

@@ -84,5 +84,18 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
             .into());
         }
     }
+    let metadata = system.metadata();
+    for guard in metadata.interfaces.len()..metadata.first_condition() {
+        let bounds = system.of_region(region).sides.get(guard).copied().flatten();
+        let reading = Reading::new(system, region, guard, t, x);
+        if bounds.is_some() && !reading.is_zero() && reading.value < 0.0 {
+            return Err(ErrorKind::InvalidInput {
+                what: "region",
+                value: system.of_region(region).name.to_owned(),
+                requirement: "a field beside its interface leads away from it at the start",
+            }
+            .into());
+        }
+    }
     Ok(Start { region, on })
 }

@@ -101,3 +101,23 @@ fn a_sliding_solution_crosses_another_interface() -> Result<(), Failure> {
     assert_close(way.end[0], 1.75 * 1.75, 1e-13);
     Ok(())
 }
+
+#[test]
+fn a_start_at_the_end_of_sliding_goes_where_the_field_turns() -> Result<(), Failure> {
+    // at x = 1/2 the force of the spring is that of friction; further out it is stronger
+    let declaration = "system Mass {
+        state x, v;
+        der(x) = v;
+        der(v) = -x - (if v > 0.25 sliding { 1/2 } else { -1/2 });
+    }";
+    // it slips at once: a circle about 1/2
+    let way = taylor(declaration, &[], &[0.5, 0.25], 1.0)?;
+    assert!(way.passed.is_empty(), "{way:?}");
+    assert_close(way.end[0], 0.5 + 0.25 * 1.0_f64.sin(), 1e-15);
+    assert_close(way.end[1], 0.25 * 1.0_f64.cos(), 1e-15);
+    // at −1/2 it sticks, and is carried to 1/2
+    let way = taylor(declaration, &[], &[-0.5, 0.25], 5.0)?;
+    assert_eq!(story(&way), ["leaves v - 0.25".replace("0.25", "1/4")]);
+    assert_close(way.passed[0].t, 4.0, 1e-15);
+    Ok(())
+}
