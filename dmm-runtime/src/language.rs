@@ -255,7 +255,7 @@
 ///   side for them.
 /// - Any number of switches may slide at once, where f is a sum of what they switch, and so may two
 ///   interfaces of regions. The weights are solved for together where they depend on one another, up
-///   to three of them. Where four regions meet whose fields are no such sum, the mean is not
+///   to 16 of them. Where four regions meet whose fields are no such sum, the mean is not
 ///   determined; a solution that comes there ends as
 ///   [`ErrorKind::Intersection`](crate::ErrorKind::Intersection).
 /// - A solution that would slide where that is not declared ends as

@@ -54,3 +54,34 @@ fn twenty_blocks_stick_and_slip() -> Result<(), Failure> {
     }
     Ok(())
 }
+
+/// Plates that lie on one another, with friction between neighbours and a force on the lowest one.
+const PLATES: &str = "system Plates {
+    const n = 6;
+    state v[n];
+    param force = 1.5, friction = 1;
+    fn mass(i) = 1 + i/4;
+    fn grip(i) = 5*friction*(if v[i - 1] - v[i] > 0 sliding { 1 } else { -1 });
+    der(v[0]) = (force - grip(1))/mass(0);
+    for i in 1..n - 1 { der(v[i]) = (grip(i) - grip(i + 1))/mass(i); }
+    der(v[n - 1]) = grip(n - 1)/mass(n - 1);
+}";
+
+#[test]
+fn plates_that_stick_together_move_as_one() -> Result<(), Failure> {
+    // five interfaces that depend on one another, from rest
+    let way = taylor(PLATES, &[], &[0.0; 6], 2.0)?;
+    assert!(way.passed.is_empty(), "{way:?}");
+    let mass: f64 = (0..6).map(|i| 1.0 + f64::from(i) / 4.0).sum();
+    for &speed in &way.end {
+        assert_close(speed, 1.5 * 2.0 / mass, 1e-15);
+    }
+    // a force that is too much for the grip of the first: only it slips, and the others follow as one
+    let way = taylor(PLATES, &[("force", 30.0)], &[0.0; 6], 2.0)?;
+    let rest = mass - 1.0;
+    assert_close(way.end[0], 2.0 * (30.0 - 5.0), 1e-14);
+    for &speed in &way.end[1..] {
+        assert_close(speed, 2.0 * 5.0 / rest, 1e-14);
+    }
+    Ok(())
+}

@@ -135,7 +135,15 @@ impl<'d> Resolver<'d> {
             || states.iter().any(|state| depends_on.contains(&state.name))
             || self.is_side(g.id);
         if !moves {
-            let message = "what decides here depends neither on a state nor on `t`: declare two systems, or a parameter for each value";
+            let discrete = self.regions.discrete.iter();
+            let mut discrete = discrete.filter(|one| depends_on.contains(&one.name));
+            let message = match discrete.next() {
+                Some(one) => format!(
+                    "a discrete state decides here, which changes by events alone: write it as a factor, as in `{0}*u + (1 - {0})*v` where it is 1 or 0",
+                    one.ident
+                ),
+                None => "what decides here depends neither on a state nor on `t`: declare two systems, or a parameter for each value".to_owned(),
+            };
             self.report(codes::INTERFACE_CONSTANT, formula.extent, message);
             return None;
         }

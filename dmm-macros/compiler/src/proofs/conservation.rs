@@ -26,12 +26,11 @@ pub(super) fn examine(
     if quantity.autonomous && quantity.derivatives.gradient.iter().all(is_zero) {
         return Err(QuantityProblem::Constant);
     }
-    let formulas = formulas(dag, &region.field, quantity.psi, &quantity.derivatives);
-    if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, quantity) {
-        conditions(dag, place, &formulas)?;
+    if psi.claim == Claim::Mean {
         return Ok(Conservation::ByConstruction);
     }
-    if psi.claim == Claim::Mean {
+    let formulas = formulas(dag, &region.field, quantity.psi, &quantity.derivatives);
+    if psi.claim == Claim::Hamiltonian && is_by_construction(dag, variables, region, quantity) {
         conditions(dag, place, &formulas)?;
         return Ok(Conservation::ByConstruction);
     }

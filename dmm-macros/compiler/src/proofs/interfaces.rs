@@ -26,13 +26,21 @@ pub(super) fn examine(
     let mut rates = Vec::new();
     let mut sides = Vec::new();
     for region in regions {
+        if region.slide.is_some() {
+            rates.push(Rate::Unknown);
+            continue;
+        }
         let rate = derivatives.rate(dag, &region.field);
         let rate = sign(dag, rate);
         let side = region.sides.iter().find(|side| side.interface == index);
         sides.extend(side.map(|side| (side.sign, rate)));
         rates.push(rate);
     }
-    if rates.iter().all(|&rate| rate == Rate::Zero) {
+    let mut open = regions
+        .iter()
+        .zip(&rates)
+        .filter(|(region, _)| region.slide.is_none());
+    if open.all(|(_, &rate)| rate == Rate::Zero) {
         return Err(InterfaceProblem::NeverCrossed);
     }
     let all = |above: Rate, below: Rate| {

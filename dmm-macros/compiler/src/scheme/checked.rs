@@ -33,6 +33,8 @@ pub(super) fn checked(
     evidence: &[Conservation],
     strategy: &Strategy,
 ) -> Vec<CheckedCondition> {
+    // the ends of a sliding motion are long, and say little of ψ
+    let sides = if region.slide.is_some() { &[] } else { sides };
     // the scheme of a region without such conditions is as if nothing had been asked
     let scratch = &mut dag.clone();
     let mut found: Vec<(DomainCondition, Vec<usize>)> = Vec::new();

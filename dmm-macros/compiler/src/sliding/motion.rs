@@ -9,7 +9,7 @@ use quote::format_ident;
 use super::mean::{Mean, Problem, Weight, blend, of_place, simplified};
 use super::places::Place;
 use super::weights::{Solution, System};
-use crate::algebra::{Dag, Id, Math, differentiate, gradient, is_proved_zero};
+use crate::algebra::{Dag, Id, Math, Name, differentiate, gradient, is_proved_zero};
 use crate::model::{Claim, Conserved, Interface, Model, Region, Side, Sign, Slide, SlideEnd};
 
 /// A sliding motion.
@@ -195,7 +195,7 @@ fn moves(model: &mut Model, weight: &Weight, solution: &Solution, field: &[Id]) 
     let slides = Model::slide_of(&model.interfaces[weight.interface]);
     let dag = &mut model.dag;
     let by_time = differentiate(dag, g, &Model::time());
-    if !is_proved_zero(dag, by_time) {
+    if solution.alone.is_none() || !is_proved_zero(dag, by_time) {
         return true;
     }
     let slopes = gradient(dag, g, &states);
@@ -275,25 +275,7 @@ impl Motion {
                 claim: Claim::Mean,
             });
         }
-        let beside = place.regions.iter().map(|&one| &model.regions[one]);
-        let beside: Vec<&Region> = beside.collect();
-        let (first, others) = beside
-            .split_first()
-            .map_or((None, &[][..]), |(first, others)| (Some(*first), others));
-        let shared = first.into_iter().flat_map(|region| &region.conserved);
-        for psi in shared {
-            let is_same = |other: &Conserved| other.ident == psi.ident && other.psi == psi.psi;
-            if others
-                .iter()
-                .all(|region| region.conserved.iter().any(is_same))
-            {
-                let claim = Claim::Mean;
-                conserved.push(Conserved {
-                    claim,
-                    ..psi.clone()
-                });
-            }
-        }
+        conserved.extend(self.shared(model, place));
         if self.switches.is_empty() && place.on.len() == 1 {
             let own = model.sliding.iter();
             let own = own.filter(|own| place.on.contains(&own.interface));
@@ -301,6 +283,29 @@ impl Motion {
         }
         conserved.truncate(model.states.len().saturating_sub(1));
         conserved
+    }
+
+    /// What every field around the place conserves, and their means with it: what does not itself switch
+    /// where the motion slides.
+    fn shared(&self, model: &Model, place: &Place) -> Vec<Conserved> {
+        let mut beside = place.regions.iter().map(|&one| &model.regions[one]);
+        let Some(first) = beside.next() else {
+            return Vec::new();
+        };
+        let slid = place.on.iter().chain(&self.switches);
+        let sides: Vec<&Name> = slid.map(|&one| &model.interfaces[one].side).collect();
+        let is_shared = |psi: &&Conserved| {
+            let is_same = |other: &Conserved| other.ident == psi.ident && other.psi == psi.psi;
+            let mut others = beside.clone();
+            let switches = sides.iter().any(|side| model.dag.depends_on(psi.psi, side));
+            !switches && others.all(|region| region.conserved.iter().any(is_same))
+        };
+        let shared = first.conserved.iter().filter(is_shared);
+        let of_mean = |psi: &Conserved| Conserved {
+            claim: Claim::Mean,
+            ..psi.clone()
+        };
+        shared.map(of_mean).collect()
     }
 }
 

@@ -7,7 +7,9 @@ use crate::algebra::{Dag, Id, differentiate, gradient, is_proved_zero};
 use crate::model::Model;
 
 /// At most so many weights depend on one another.
-const MOST_COUPLED: usize = 3;
+const MOST_COUPLED: usize = 16;
+/// Of so many at most by determinants, which have no pivots that may vanish.
+const MOST_BY_DETERMINANTS: usize = 3;
 
 /// A weight.
 pub(super) struct Solution {
@@ -71,8 +73,11 @@ impl System {
                 .map(|&row| block.iter().map(|&k| self.matrix[row][k]).collect())
                 .collect();
             let columns: Vec<usize> = (0..block.len()).collect();
-            let determinant = determinant(&mut model.dag, &matrix, &columns);
-            if is_proved_zero(&model.dag, determinant) {
+            let is_singular = block.len() <= MOST_BY_DETERMINANTS && {
+                let determinant = determinant(&mut model.dag, &matrix, &columns);
+                is_proved_zero(&model.dag, determinant)
+            };
+            if is_singular {
                 if block.iter().any(|&one| !mean.weights[one].is_switch) {
                     return Ok(None);
                 }
@@ -132,20 +137,17 @@ impl System {
         for (row, &right) in matrix.iter_mut().zip(&right) {
             row.push(right);
         }
-        let columns: Vec<usize> = (0..block.len()).collect();
-        let whole = determinant(dag, &matrix, &columns);
-        let solution = |(index, switch): (usize, &Option<(Id, Id)>)| {
-            // Cramer's rule
-            let mut replaced = columns.clone();
-            replaced[index] = block.len();
-            let part = determinant(dag, &matrix, &replaced);
-            Solution {
-                weight: dag.div(part, whole),
-                alone,
-                switch: *switch,
-            }
+        let weights = if block.len() <= MOST_BY_DETERMINANTS {
+            by_determinants(dag, &matrix)
+        } else {
+            by_elimination(dag, matrix)
         };
-        switches.iter().enumerate().map(solution).collect()
+        let solution = |(weight, switch)| Solution {
+            weight,
+            alone,
+            switch,
+        };
+        weights.into_iter().zip(switches).map(solution).collect()
     }
 
     /// The weights that depend on one another together, those that others depend on first.
@@ -182,6 +184,50 @@ impl System {
         }
         blocks
     }
+}
+
+/// The solution of linear equations, whose right sides are the last column, by Cramer's rule.
+fn by_determinants(dag: &mut Dag, rows: &[Vec<Id>]) -> Vec<Id> {
+    let columns: Vec<usize> = (0..rows.len()).collect();
+    let whole = determinant(dag, rows, &columns);
+    let solution = |index: usize| {
+        let mut replaced = columns.clone();
+        replaced[index] = rows.len();
+        let part = determinant(dag, rows, &replaced);
+        dag.div(part, whole)
+    };
+    (0..rows.len()).map(solution).collect()
+}
+
+/// The same by Gaussian elimination without a choice of pivots: those of friction between bodies, whose
+/// matrix is that of inverse masses, are not zero.
+fn by_elimination(dag: &mut Dag, mut rows: Vec<Vec<Id>>) -> Vec<Id> {
+    let count = rows.len();
+    for pivot in 0..count {
+        let (done, below) = rows.split_at_mut(pivot + 1);
+        let above = &done[pivot];
+        for row in below {
+            if dag.is_zero(row[pivot]) {
+                continue;
+            }
+            let factor = dag.div(row[pivot], above[pivot]);
+            for column in pivot..=count {
+                let part = dag.mul(factor, above[column]);
+                row[column] = dag.sub(row[column], part);
+            }
+            row[pivot] = dag.integer(0);
+        }
+    }
+    let mut solution = vec![dag.integer(0); count];
+    for index in (0..count).rev() {
+        let mut rest = rows[index][count];
+        for later in index + 1..count {
+            let part = dag.mul(rows[index][later], solution[later]);
+            rest = dag.sub(rest, part);
+        }
+        solution[index] = dag.div(rest, rows[index][index]);
+    }
+    solution
 }
 
 /// Σ uᵢ vᵢ

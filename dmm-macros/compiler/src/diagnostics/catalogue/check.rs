@@ -159,6 +159,6 @@ super::codes! {
         "A solution slides where the fields on both sides lead to the interface, along a mean of them that stays on it (Filippov). The fields have to differ in what they do to its switching function.",
         "Remove `sliding`, or correct the formulas that switch there.";
     NOT_A_MEAN = 281, "the motion on two sliding interfaces at once is not determined",
-        "Where several switches slide, each of them has a mean of its own, if the field is a sum of what they switch: a product of two of them has many means. At most three can depend on one another.",
+        "Where several switches slide, each of them has a mean of its own, if the field is a sum of what they switch: a product of two of them has many means. At most 16 can depend on one another.",
         "Write the branches beside each other instead of in each other, or declare interfaces and regions.";
 }
