@@ -44,102 +44,113 @@ pub(super) struct Problem {
 /// The mean of the fields around a place; nothing where it is not determined, because four fields
 /// meet that are no sum of what two interfaces switch.
 pub(super) fn of_place(model: &mut Model, place: &Place) -> Option<Mean> {
-    let count = model.states.len();
-    let corners: Vec<Vec<Id>> = (0..place.regions.len())
-        .map(|corner| field_at(model, place, corner))
-        .collect();
+    let corners = 0..place.regions.len();
+    let corners = corners.map(|corner| field_at(model, place, corner));
+    let corners = Corners(corners.collect());
     let dag = &mut model.dag;
-    let difference = |dag: &mut Dag, one: usize, other: usize| -> Vec<Id> {
-        let parts = (0..count).map(|m| {
-            let part = dag.sub(corners[one][m], corners[other][m]);
+    match place.on[..] {
+        [] => Some(corners.mean(0, Vec::new(), Vec::new())),
+        [interface] => {
+            let column = corners.difference(dag, 1, 0);
+            let ends = both_sides(interface, 0, 1);
+            Some(corners.mean(0, vec![(interface, column)], ends.into()))
+        }
+        [first, second] => {
+            let (by_first, by_second) =
+                (corners.difference(dag, 1, 0), corners.difference(dag, 2, 0));
+            if !corners.is_sum(dag, &by_first, &by_second) {
+                return of_three(dag, place, &corners);
+            }
+            let ends = both_sides(first, 0, 2)
+                .into_iter()
+                .chain(both_sides(second, 1, 2));
+            let columns = vec![(first, by_first), (second, by_second)];
+            Some(corners.mean(0, columns, ends.collect()))
+        }
+        _ => None,
+    }
+}
+
+/// The mean of three fields: A on one side of an interface a, B and C on its other side, where g of b
+/// is positive and negative, f = f_C + θ_A (f_A − f_C) + θ_B (f_B − f_C).
+fn of_three(dag: &mut Dag, place: &Place, corners: &Corners) -> Option<Mean> {
+    let choices = [(0, 0), (0, 1), (1, 0), (1, 2)];
+    let (bit, of_a) = choices.into_iter().find(|&(bit, corner)| {
+        let across = corner ^ (1 << (1 - bit));
+        place.regions[corner] == place.regions[across]
+    })?;
+    let (a, b) = (place.on[bit], place.on[1 - bit]);
+    let of_c = (of_a ^ (1 << bit)) & !(1 << (1 - bit));
+    let of_b = of_c | 1 << (1 - bit);
+    let behind = sign(of_a, bit).opposite();
+    let end = |constant, factors: [i64; 2], interface, side| WeightEnd {
+        constant,
+        factors: factors.into(),
+        interface,
+        side,
+    };
+    let ends = vec![
+        end(0, [1, 0], a, behind),
+        end(0, [0, 1], b, Sign::Negative),
+        end(1, [-1, -1], b, Sign::Positive),
+    ];
+    let columns = vec![
+        (a, corners.difference(dag, of_a, of_c)),
+        (b, corners.difference(dag, of_b, of_c)),
+    ];
+    Some(corners.mean(of_c, columns, ends))
+}
+
+/// The ends of a weight, number `index` of `count`, that is 0 on the side g < 0 and 1 on the other.
+fn both_sides(interface: usize, index: usize, count: usize) -> [WeightEnd; 2] {
+    let end = |constant, factor, side| {
+        let mut factors = vec![0; count];
+        factors[index] = factor;
+        WeightEnd {
+            constant,
+            factors,
+            interface,
+            side,
+        }
+    };
+    [end(0, 1, Sign::Negative), end(1, -1, Sign::Positive)]
+}
+
+/// The fields around a place, by corner and state.
+struct Corners(Vec<Vec<Id>>);
+
+impl Corners {
+    fn difference(&self, dag: &mut Dag, one: usize, other: usize) -> Vec<Id> {
+        let parts = self.0[one].iter().zip(&self.0[other]);
+        let parts = parts.map(|(&one, &other)| {
+            let part = dag.sub(one, other);
             simplified(dag, part)
         });
         parts.collect()
-    };
-    let weight = |interface: usize, column: Vec<Id>| Weight {
-        interface,
-        column,
-        is_switch: false,
-    };
-    let both = |interface: usize, index: usize, all: usize| {
-        let mut factors = vec![0; all];
-        factors[index] = 1;
-        let low = WeightEnd {
-            constant: 0,
-            factors: factors.clone(),
+    }
+
+    /// Whether the field is the sum of what two interfaces switch.
+    fn is_sum(&self, dag: &mut Dag, by_first: &[Id], by_second: &[Id]) -> bool {
+        let by_both = self.difference(dag, 3, 0);
+        let mut parts = by_both.iter().zip(by_first.iter().zip(by_second));
+        parts.all(|(&both, (&first, &second))| {
+            let sum = dag.add(first, second);
+            let rest = dag.sub(both, sum);
+            is_proved_zero(dag, rest)
+        })
+    }
+
+    fn mean(&self, base: usize, columns: Vec<(usize, Vec<Id>)>, ends: Vec<WeightEnd>) -> Mean {
+        let weight = |(interface, column)| Weight {
             interface,
-            side: Sign::Negative,
+            column,
+            is_switch: false,
         };
-        factors[index] = -1;
-        let high = WeightEnd {
-            constant: 1,
-            factors,
-            interface,
-            side: Sign::Positive,
-        };
-        [low, high]
-    };
-    match place.on[..] {
-        [] => Some(Mean {
-            base: corners[0].clone(),
-            weights: Vec::new(),
-            ends: Vec::new(),
-        }),
-        [interface] => Some(Mean {
-            weights: vec![weight(interface, difference(dag, 1, 0))],
-            base: corners[0].clone(),
-            ends: both(interface, 0, 1).into(),
-        }),
-        [first, second] => {
-            let (by_first, by_second) = (difference(dag, 1, 0), difference(dag, 2, 0));
-            let is_sum = (0..count).all(|m| {
-                let all = dag.sub(corners[3][m], corners[0][m]);
-                let parts = dag.add(by_first[m], by_second[m]);
-                let cross = dag.sub(all, parts);
-                is_proved_zero(dag, cross)
-            });
-            if is_sum {
-                let ends = both(first, 0, 2).into_iter().chain(both(second, 1, 2));
-                return Some(Mean {
-                    base: corners[0].clone(),
-                    weights: vec![weight(first, by_first), weight(second, by_second)],
-                    ends: ends.collect(),
-                });
-            }
-            // three regions: one on one side of an interface a, two on its other side
-            let (bit, corner) =
-                [(0, 0), (0, 1), (1, 0), (1, 2)]
-                    .into_iter()
-                    .find_map(|(a, of)| {
-                        let b = 1 - a;
-                        let is_one = place.regions[of] == place.regions[of ^ (1 << b)];
-                        is_one.then_some((a, of))
-                    })?;
-            let (a, b) = (place.on[bit], place.on[1 - bit]);
-            // C and B lie behind a, where g of b is negative and positive
-            let c = (corner ^ (1 << bit)) & !(1 << (1 - bit));
-            let with_b = c | 1 << (1 - bit);
-            let behind = sign(corner, bit).opposite();
-            let end = |constant, factors: [i64; 2], interface, side| WeightEnd {
-                constant,
-                factors: factors.into(),
-                interface,
-                side,
-            };
-            Some(Mean {
-                weights: vec![
-                    weight(a, difference(dag, corner, c)),
-                    weight(b, difference(dag, with_b, c)),
-                ],
-                base: corners[c].clone(),
-                ends: vec![
-                    end(0, [1, 0], a, behind),
-                    end(0, [0, 1], b, Sign::Negative),
-                    end(1, [-1, -1], b, Sign::Positive),
-                ],
-            })
+        Mean {
+            base: self.0[base].clone(),
+            weights: columns.into_iter().map(weight).collect(),
+            ends,
         }
-        _ => None,
     }
 }
 
@@ -159,8 +170,7 @@ fn field_at(model: &mut Model, place: &Place, corner: usize) -> Vec<Id> {
 }
 
 impl Mean {
-    /// Takes the switches of formulas out of the base, as weights of their own.
-    /// Nothing where there are none, or they change what the interfaces of the place switch.
+    /// Takes the switches of formulas out of the base, as weights of their own; nothing where there are none, or they change what the interfaces of the place switch.
     pub(super) fn with_switches(
         mut self,
         model: &mut Model,
