@@ -20,17 +20,20 @@ pub(crate) enum Stop {
     None,
     /// Several motions fit.
     Several,
+    /// It is far away, and nothing of interest.
+    Far,
     /// It cannot be told in doubles.
     Undecided(&'static str),
 }
 
-/// The motion behind (t, x), which is on the interfaces `on`, with the discrete state u.
+/// The motion behind (t, x), which is on the interfaces `on`, with the discrete state u, and whether
+/// there are others, which slide between fields that lead away.
 pub(crate) fn decide(
     systems: &Systems<'_>,
     (t, x): (f64, &State),
     on: &[usize],
     u: f64,
-) -> Result<Motion, Stop> {
+) -> Result<(Motion, bool), Stop> {
     let mut choices = Vec::new();
     for k in 0..systems.plant.interfaces.len() {
         let g = systems.g(k, t, x);
@@ -86,8 +89,14 @@ pub(crate) fn decide(
     }
     match fitting.len() {
         0 => Err(Stop::None),
-        1 => Ok(fitting.remove(0)),
-        _ => Err(Stop::Several),
+        1 => Ok((fitting.remove(0), false)),
+        _ => {
+            fitting.retain(|motion| !systems.is_repelling(motion, t, x));
+            match fitting.len() {
+                1 => Ok((fitting.remove(0), true)),
+                _ => Err(Stop::Several),
+            }
+        }
     }
 }
 

@@ -56,15 +56,23 @@ impl Case<'_> {
         solve(&self.systems, x0, setting)
     }
 
-    /// The reference.
-    pub(crate) fn solution(&self) -> Solution {
-        self.reference(&self.x0, STEP, self.t_end)
+    /// The reference; the end time is put where the solution is not far away yet.
+    pub(crate) fn solution(&mut self) -> Solution {
+        loop {
+            let solution = self.reference(&self.x0, STEP, self.t_end);
+            if solution.stop != Some(Stop::Far) {
+                return solution;
+            }
+            self.t_end = 0.97 * solution.t;
+        }
     }
 
     /// What becomes of a run by a scheme, beside the reference.
     pub(crate) fn judge(&self, solution: &Solution, scheme: Scheme) -> Outcome {
         let is_over = solution.stop.is_some() || solution.passed.len() == MOST;
-        let t_end = if is_over {
+        let t_end = if matches!(solution.stop, Some(Stop::Undecided(_))) {
+            solution.t
+        } else if is_over {
             (solution.t + BEYOND).min(self.t_end)
         } else {
             self.t_end
@@ -193,6 +201,10 @@ fn refused(solution: &Solution, told: &Told, error: &Error) -> Outcome {
     let kind = kind.split([' ', '(']).next().unwrap_or_default().to_owned();
     let is_there =
         (solution.t - told.t).abs() < TOGETHER && told.passed.len() == solution.passed.len();
+    let mut forks = solution.forks.iter();
+    if kind == "Ambiguous" && forks.any(|t| (t - told.t).abs() < TOGETHER) {
+        return Outcome::Confirmed("Ambiguous beside a repelling slide".to_owned());
+    }
     match solution.stop {
         Some(Stop::Undecided(_)) if is_there => Outcome::Degenerate(kind),
         Some(_) if is_there => Outcome::Confirmed(kind),

@@ -190,6 +190,21 @@ impl<'a> Systems<'a> {
         (f, weights)
     }
 
+    /// Whether it slides where the fields lead away: what the weight of an interface adds to its dg/dt
+    /// has the sign of the side it stands for.
+    pub(crate) fn is_repelling(&self, motion: &Motion, t: f64, x: &State) -> bool {
+        let repels = |&k: &usize| {
+            let rates = [Choice::Below, Choice::Above].map(|side| {
+                let mut mode = motion.mode.clone();
+                mode.choices[k] = side;
+                let f = self.motion(mode).map(|motion| self.field(&motion, t, x).0);
+                f.map(|f| self.rate(k, t, x, &f))
+            });
+            matches!(rates, [Some(below), Some(above)] if below < 0.0 && above > 0.0)
+        };
+        motion.slid.iter().any(repels)
+    }
+
     /// dg/dt under a field.
     pub(crate) fn rate(&self, interface: usize, t: f64, x: &State, f: &State) -> f64 {
         let (gradient, by_time) = self.slopes(interface, t, x);
@@ -248,21 +263,6 @@ impl Motion {
         };
         let weights = first..self.regions.len() + self.switches.len();
         sides.chain(weights.map(Guard::Weight)).collect()
-    }
-
-    /// The smallest of its weights; more than 1 where it does not slide.
-    pub(crate) fn least_weight(&self, systems: &Systems<'_>, t: f64, x: &State) -> f64 {
-        let weights = systems.field(self, t, x).1;
-        let own = self.guards().into_iter();
-        let own = own.filter(|guard| matches!(guard, Guard::Weight(_)));
-        own.map(|guard| systems.guard(self, guard, (t, x), &weights))
-            .fold(2.0, |least, weight| {
-                if weight.is_nan() {
-                    weight
-                } else {
-                    least.min(weight)
-                }
-            })
     }
 }
 

@@ -117,10 +117,16 @@ impl Plant {
 
     /// Whether anything depends on the discrete state or changes it.
     pub(crate) fn has_discrete(&self) -> bool {
-        let events = &mut self.events.iter();
-        let flips = events.any(|event| event.jump.flips || event.only_if.is_some());
-        let clock = self.clock.as_ref();
-        flips || clock.is_some_and(|(_, jump)| jump.flips)
+        let depends = |sum: &Sum| {
+            let mut factors = sum.iter().flat_map(|term| &term.factors);
+            factors.any(|factor| matches!(factor, Factor::Discrete))
+        };
+        let mut fields = self.regions.iter().flat_map(|region| &region.field);
+        let mut events = self.events.iter();
+        let flips = |jump: &Jump| jump.flips;
+        fields.any(depends)
+            || events.any(|event| flips(&event.jump) || event.only_if.is_some())
+            || self.clock.as_ref().is_some_and(|(_, jump)| flips(jump))
     }
 }
 

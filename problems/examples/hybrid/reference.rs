@@ -42,6 +42,8 @@ pub(crate) struct Solution {
     pub(crate) passed: Vec<Passed>,
     pub(crate) t: f64,
     pub(crate) x: State,
+    /// Where other motions would slide between fields that lead away.
+    pub(crate) forks: Vec<f64>,
     /// Why it did not reach the end time.
     pub(crate) stop: Option<Stop>,
 }
@@ -61,6 +63,7 @@ pub(crate) fn solve(systems: &Systems<'_>, x0: &State, setting: Setting) -> Solu
         passed: Vec::new(),
         t: 0.0,
         x: *x0,
+        forks: Vec::new(),
         stop: None,
     };
     solution.stop = run(systems, setting, &mut solution).err();
@@ -71,7 +74,7 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
     let interfaces = systems.plant.interfaces.len();
     let on = (0..interfaces).filter(|&k| systems.g(k, 0.0, &solution.x).abs() < ON);
     let mut on: Vec<usize> = on.collect();
-    let mut motion = decide(systems, (0.0, &solution.x), &on, 1.0)?;
+    let mut motion = next_motion(systems, solution, &on, 1.0)?;
     let mut beats = 1.0;
     loop {
         let Solution { t, x, .. } = *solution;
@@ -80,8 +83,11 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         let until = setting.t_end.min(beat);
         let step = setting.step.min(until - t);
         let after = flow(systems, &motion, t, &x, step);
+        if !after.iter().all(|part| part.is_finite()) {
+            return Err(Stop::Undecided("the field has no value"));
+        }
         if !after.iter().all(|part| part.abs() < FAR) {
-            return Err(Stop::Undecided("far away, or without a field"));
+            return Err(Stop::Far);
         }
         let found = first_zero(systems, &motion, &on, (t, &x), (step, &after))?;
         let Some((s, guard)) = found else {
@@ -106,6 +112,20 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
             return Ok(());
         }
     }
+}
+
+/// The motion that the solution goes on in where it is.
+fn next_motion(
+    systems: &Systems<'_>,
+    solution: &mut Solution,
+    on: &[usize],
+    u: f64,
+) -> Result<Motion, Stop> {
+    let (motion, is_fork) = decide(systems, (solution.t, &solution.x), on, u)?;
+    if is_fork {
+        solution.forks.push(solution.t);
+    }
+    Ok(motion)
 }
 
 /// The first zero of a guard within a step, as the length of the step to it.
@@ -236,7 +256,7 @@ fn passed(
         }
         on.push(k);
     }
-    let next = decide(systems, (t, &x), &on, motion.mode.u)?;
+    let next = next_motion(systems, solution, &on, motion.mode.u)?;
     let left = motion.slid.iter().filter(|k| !next.slid.contains(k));
     let interface = match guard {
         Guard::Interface(k) => Some(k),
@@ -290,7 +310,7 @@ fn jumped(
     });
     let on: Vec<usize> = on.collect();
     solution.x = after;
-    let next = decide(systems, (t, &after), &on, u)?;
+    let next = next_motion(systems, solution, &on, u)?;
     solution.passed.push(Passed {
         t,
         interface,

@@ -92,9 +92,9 @@ impl Campaign {
             }
         }
         let systems = Systems { plant, c: &c };
-        let case = Case {
+        let mut case = Case {
             x0: initial(&systems, &mut random),
-            t_end: random.between(2.0, 10.0),
+            t_end: random.between(1.0, 6.0),
             systems,
             model: &model,
         };
@@ -104,7 +104,8 @@ impl Campaign {
             {
                 continue;
             }
-            tally.count(case.judge(&solution, scheme), &solution, || {
+            let outcome = case.judge(&solution, scheme);
+            tally.count(outcome, &solution, || {
                 format!(
                     "  run {index} of seed {} by {} from {:?} to {}, c = {c:?}\n{}",
                     self.seed,
