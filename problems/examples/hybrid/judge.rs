@@ -67,8 +67,8 @@ impl Case<'_> {
         }
     }
 
-    /// What becomes of a run by a scheme, beside the reference.
-    pub(crate) fn judge(&self, solution: &Solution, scheme: Scheme) -> Outcome {
+    /// A run to where the reference ends, or a bit farther.
+    fn told(&self, solution: &Solution, scheme: Scheme) -> Result<Told, Error> {
         let is_over = solution.stop.is_some() || solution.passed.len() == MOST;
         let t_end = if matches!(solution.stop, Some(Stop::Undecided(_))) {
             solution.t
@@ -84,7 +84,12 @@ impl Case<'_> {
             t_end,
             most: MOST,
         };
-        let told = match run.of(self.model) {
+        run.of(self.model)
+    }
+
+    /// What becomes of a run by a scheme, beside the reference.
+    pub(crate) fn judge(&self, solution: &Solution, scheme: Scheme) -> Outcome {
+        let told = match self.told(solution, scheme) {
             Ok(told) => told,
             Err(error) => return Outcome::Silent(format!("{error}")),
         };
@@ -94,6 +99,9 @@ impl Case<'_> {
         }
         // again with shorter steps, and with what a change of the initial state makes
         let finer = self.reference(&self.x0, STEP / 8.0, self.t_end);
+        let Ok(told) = self.told(&finer, scheme) else {
+            return outcome;
+        };
         let tolerance = match self.difference(&finer, scheme) {
             Ok(difference) => scheme.error() + FACTOR * difference,
             Err(reason) => return Outcome::Undecided(reason),
