@@ -205,6 +205,28 @@ impl<'a> Systems<'a> {
         motion.slid.iter().any(repels)
     }
 
+    /// The largest change of a weight between two points; infinite where there are none.
+    pub(crate) fn change(
+        &self,
+        motion: &Motion,
+        (t, x): (f64, &State),
+        (later, after): (f64, &State),
+    ) -> f64 {
+        if motion.slid.is_empty() {
+            return 0.0;
+        }
+        let weights = self.field(motion, t, x).1;
+        let others = self.field(motion, later, after).1;
+        let changes = weights.iter().zip(&others).map(|(a, b)| (a - b).abs());
+        changes.fold(0.0, |most, change| {
+            if change.is_nan() {
+                f64::INFINITY
+            } else {
+                most.max(change)
+            }
+        })
+    }
+
     /// dg/dt under a field.
     pub(crate) fn rate(&self, interface: usize, t: f64, x: &State, f: &State) -> f64 {
         let (gradient, by_time) = self.slopes(interface, t, x);

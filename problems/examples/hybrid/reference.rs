@@ -12,6 +12,9 @@ const TOUCH: f64 = 1e-6;
 const ON: f64 = 1e-11;
 /// States beyond this size are not followed.
 const FAR: f64 = 20.0;
+/// The most that a weight may change in a step, unless the step is so short.
+const MOST_CHANGE: f64 = 0.1;
+const SHORTEST: f64 = 1e-7;
 /// The time between the points at which a derivative is taken.
 const SMALL: f64 = 1e-5;
 
@@ -81,8 +84,14 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         let clock = systems.plant.clock.as_ref();
         let beat = clock.map_or(f64::INFINITY, |(period, _)| beats * systems.c[*period]);
         let until = setting.t_end.min(beat);
-        let step = setting.step.min(until - t);
-        let after = flow(systems, &motion, t, &x, step);
+        let mut step = setting.step.min(until - t);
+        let mut after = flow(systems, &motion, t, &x, step);
+        // weights have poles, near which they change fast
+        while step > SHORTEST && systems.change(&motion, (t, &x), (t + step, &after)) > MOST_CHANGE
+        {
+            step *= 0.5;
+            after = flow(systems, &motion, t, &x, step);
+        }
         if !after.iter().all(|part| part.is_finite()) {
             return Err(Stop::Undecided("the field has no value"));
         }
@@ -95,7 +104,7 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
                 return Err(Stop::Undecided("a weight has a pole"));
             }
             on.clear();
-            solution.t = if step < setting.step { until } else { t + step };
+            solution.t = if step >= until - t { until } else { t + step };
             solution.x = after;
             systems.project(&motion, solution.t, &mut solution.x);
             if solution.t >= beat && beat < setting.t_end {
