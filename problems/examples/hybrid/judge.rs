@@ -99,6 +99,9 @@ impl Case<'_> {
         }
         // again with shorter steps, and with what a change of the initial state makes
         let finer = self.reference(&self.x0, STEP / 8.0, self.t_end);
+        if finer.stop == Some(Stop::Far) {
+            return Outcome::Undecided("far away");
+        }
         let Ok(told) = self.told(&finer, scheme) else {
             return outcome;
         };
@@ -186,6 +189,11 @@ fn compare(solution: &Solution, told: &Told, tolerance: f64) -> Outcome {
     }
     if solution.passed.len() > count {
         let t = solution.passed[count].t;
+        if let Some(Stop::Undecided(reason)) = solution.stop
+            && t > solution.t - TOGETHER
+        {
+            return Outcome::Undecided(reason);
+        }
         return Outcome::Silent(format!("a transition less, that at {t}"));
     }
     match solution.stop {

@@ -100,9 +100,6 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         }
         let found = first_zero(systems, &motion, &on, (t, &x), (step, &after))?;
         let Some((s, guard)) = found else {
-            if systems.is_repelling(&motion, t + step, &after) {
-                return Err(Stop::Undecided("a weight has a pole"));
-            }
             on.clear();
             solution.t = if step >= until - t { until } else { t + step };
             solution.x = after;
