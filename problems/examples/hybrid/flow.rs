@@ -11,7 +11,7 @@ const COLUMNS: usize = 5;
 pub(crate) fn flow(systems: &Systems<'_>, motion: &Motion, t: f64, x: &State, s: f64) -> State {
     let mut table = [[0.0; MOST]; COLUMNS];
     let f0 = systems.field(motion, t, x).0;
-    for row in 0..COLUMNS {
+    for (row, entry) in table.iter_mut().enumerate() {
         let count = 2 * (row + 1);
         let h = s / count as f64;
         let (mut before, mut now) = (*x, sum(x, h, &f0));
@@ -20,7 +20,7 @@ pub(crate) fn flow(systems: &Systems<'_>, motion: &Motion, t: f64, x: &State, s:
             (before, now) = (now, sum(&before, 2.0 * h, &f));
         }
         // without smoothing, which an even number of steps does not need
-        table[row] = now;
+        *entry = now;
     }
     extrapolated(table)
 }
@@ -31,8 +31,9 @@ fn extrapolated(mut table: [State; COLUMNS]) -> State {
         for row in (width..COLUMNS).rev() {
             let ratio = (row + 1) as f64 / (row + 1 - width) as f64;
             let factor = 1.0 / (ratio * ratio - 1.0);
-            for i in 0..MOST {
-                table[row][i] += factor * (table[row][i] - table[row - 1][i]);
+            let before = table[row - 1];
+            for (entry, before) in table[row].iter_mut().zip(before) {
+                *entry += factor * (*entry - before);
             }
         }
     }

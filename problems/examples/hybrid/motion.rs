@@ -169,9 +169,7 @@ impl<'a> Systems<'a> {
         }
         let count = regions + motion.switches.len();
         let mut matrix = [[0.0; SIZE + 1]; SIZE];
-        for k in 0..regions {
-            matrix[0][k] = 1.0;
-        }
+        matrix[0][..regions].fill(1.0);
         matrix[0][count] = 1.0;
         for (row, &interface) in matrix[1..].iter_mut().zip(&motion.slid) {
             let (gradient, by_time) = self.slopes(interface, t, x);
@@ -305,8 +303,9 @@ fn solve(matrix: &mut [[f64; SIZE + 1]; SIZE], count: usize) -> [f64; SIZE] {
         matrix.swap(k, pivot);
         for row in k + 1..count {
             let factor = matrix[row][k] / matrix[k][k];
-            for column in k..=count {
-                matrix[row][column] -= factor * matrix[k][column];
+            let known = matrix[k];
+            for (entry, known) in matrix[row].iter_mut().zip(known).take(count + 1) {
+                *entry -= factor * known;
             }
         }
     }

@@ -218,10 +218,8 @@ fn first_zero(
                 b = middle;
             }
         }
-        if let Some((other, _)) = first {
-            if (other - b).abs() < TOUCH && other.min(b) <= other {
-                return Err(Stop::Undecided("two at once"));
-            }
+        if first.is_some_and(|(other, _)| (other - b).abs() < TOUCH) {
+            return Err(Stop::Undecided("two at once"));
         }
         if first.is_none_or(|(other, _)| b < other) {
             first = Some((b, guard));
@@ -269,6 +267,8 @@ fn passed(
     let left = motion.slid.iter().filter(|k| !next.slid.contains(k));
     let interface = match guard {
         Guard::Interface(k) => Some(k),
+        // of several that are left at once it is not told which one ended the motion
+        Guard::Weight(_) if left.clone().count() > 1 => None,
         Guard::Weight(_) => left.clone().next().copied(),
     };
     let kind = if next.slid.iter().any(|k| !motion.slid.contains(k)) {
