@@ -36,9 +36,11 @@ pub(super) struct Around<'a, Sys: System<N>, const N: usize> {
     sides: Vec<Choice>,
     /// The interfaces that the point is on.
     on: Vec<usize>,
-    /// The interface that a sliding motion leaves at the point, on a side: dg/dt is zero there and
-    /// grows.
+    /// The interface that a sliding motion leaves at the point, on a side.
     left: Option<(usize, Side)>,
+    /// The other interfaces that it slid on. While the solution slides on all of them, dg/dt of the
+    /// interface that is left is zero at the point and grows.
+    kept: Vec<usize>,
 }
 
 /// How the field of a mode fits to a choice at one interface.
@@ -105,13 +107,23 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
             sides,
             on,
             left: None,
+            kept: Vec::new(),
         })
     }
 
     /// The same where a sliding motion leaves an interface on a side.
-    pub(super) fn leaving(mut self, interface: usize, side: Side) -> Self {
+    pub(super) fn leaving(mut self, motion: Sys::Region, interface: usize, side: Side) -> Self {
         self.left = Some((interface, side));
+        let slides = |&&one: &&usize| one != interface && self.system.slides_on(motion, one);
+        self.kept = self.on.iter().filter(slides).copied().collect();
         self
+    }
+
+    /// Whether a mode leaves an interface as the end of a sliding motion tells: it goes on sliding on
+    /// the others, so that its field is that of the motion.
+    fn leaves(&self, mode: Sys::Region, interface: usize, side: Side) -> bool {
+        let mut kept = self.kept.iter();
+        self.left == Some((interface, side)) && kept.all(|&one| self.system.slides_on(mode, one))
     }
 
     /// The interfaces that the point is on.
@@ -282,7 +294,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
     /// interface.
     fn fit(&self, mode: Sys::Region, interface: usize, choices: &[Choice]) -> Fit {
         match choices[interface] {
-            Some(side) if self.left == Some((interface, side)) => Fit::Fits,
+            Some(side) if self.leaves(mode, interface, side) => Fit::Fits,
             Some(side) if self.system.side(mode, interface).is_some() => {
                 if let Some(rate) = self.rate_of_end(interface, side, choices) {
                     return Fit::of(-rate);

@@ -139,7 +139,7 @@ fn around<Sys: System<N>, const N: usize>(
     };
     let mut before = Around::new(system, from, t, x, is_on).map_err(in_region)?;
     if let Some((interface, side)) = left {
-        before = before.leaving(interface, side);
+        before = before.leaving(from, interface, side);
     }
     let met = (interface, rate);
     let Some(mut happened) = happens(system, from, met, before.on(), t, state)? else {

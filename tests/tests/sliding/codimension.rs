@@ -60,6 +60,27 @@ fn three_regions_meet_in_one_mean() -> Result<(), Failure> {
 }
 
 #[test]
+fn both_interfaces_are_left_at_once() -> Result<(), Failure> {
+    // b leaves the mean at t = 0.6, where a and c lead away from `right`; dg/dt of `up` is zero for the
+    // mean of both alone: c leads back to `up`, so that the solution goes on in a
+    let declaration = "system Three {
+        state x, y;
+        interface right = x, sliding;
+        interface up = y, sliding;
+        region a where right > 0 { der(x) = t - 0.4; der(y) = 4*t/3 - 1; }
+        region b where right < 0 and up > 0 { der(x) = 5; der(y) = -3; }
+        region c where right < 0 and up < 0 { der(x) = -1; der(y) = 1; }
+    }";
+    let way = taylor(declaration, &[], &[0.0, 0.0], 1.0)?;
+    assert_eq!(story(&way), ["leaves up"]);
+    assert_eq!(way.passed[0].to, "a");
+    assert_close(way.passed[0].t, 0.6, 1e-15);
+    assert_close(way.end[0], 0.16, 1e-14);
+    assert_close(way.end[1], 2.0 / 75.0, 1e-14);
+    Ok(())
+}
+
+#[test]
 fn four_fields_without_one_mean_are_refused() {
     let declaration = "system Four {
         state x, y, z;

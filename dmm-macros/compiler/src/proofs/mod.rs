@@ -117,6 +117,8 @@ fn leave_out_dependent(dag: &mut Dag, variables: &Variables, region: &mut Region
         let quantities: Vec<Quantity> = quantities.collect();
         let row = match independence::examine(dag, variables, &quantities) {
             Err(RegionProblem::Dependent { row }) => row,
+            // it rests where as many surfaces meet as there are states
+            Err(RegionProblem::NothingMoves) => return,
             Err(_) => region.conserved.len().saturating_sub(1),
             Ok(_) => return,
         };
@@ -151,6 +153,7 @@ fn region_proofs(
     }
     let independence = match independence::examine(dag, variables, &quantities) {
         Ok(independence) => independence,
+        Err(RegionProblem::NothingMoves) if region.slide.is_some() => Independence::Generic,
         Err(problem) => {
             problem.report(region, diagnostics);
             return None;

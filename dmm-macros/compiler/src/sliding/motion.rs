@@ -85,10 +85,14 @@ fn field(dag: &mut Dag, mean: &Mean, solutions: &[Solution]) -> Vec<Id> {
             let term = with_term(dag, zero, column, solution);
             sum = dag.add(sum, term);
         }
-        field.push(match last {
+        let part = match last {
             Some((column, solution)) => with_term(dag, sum, column, solution),
             None => sum,
-        });
+        };
+        let is_fixed = solutions.iter().all(|solution| solution.switch.is_none());
+        // what is zero is not to be rounding errors
+        let is_zero = is_fixed && is_proved_zero(dag, part);
+        field.push(if is_zero { dag.integer(0) } else { part });
     }
     field
 }
@@ -254,7 +258,7 @@ impl Motion {
     }
 
     /// The functions g that rounding errors would move, what every field around the place conserves, and
-    /// what is declared of the motion; fewer than there are states, so that something may move.
+    /// what is declared of the motion; no more than there are states.
     fn conserved(&self, model: &mut Model, place: &Place) -> Vec<Conserved> {
         let mut conserved = Vec::new();
         for &interface in &self.kept {
@@ -281,7 +285,7 @@ impl Motion {
             let own = own.filter(|own| place.on.contains(&own.interface));
             conserved.extend(own.flat_map(|own| own.conserved.iter().cloned()));
         }
-        conserved.truncate(model.states.len().saturating_sub(1));
+        conserved.truncate(model.states.len());
         conserved
     }
 
