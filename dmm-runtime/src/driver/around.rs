@@ -201,10 +201,7 @@ impl<'a, Sys: System<N>, const N: usize> Around<'a, Sys, N> {
     fn choices(&self, group: &[usize]) -> Vec<Vec<Choice>> {
         let mut all = vec![Vec::new()];
         for interface in group {
-            let mut of_interface = match self.left {
-                Some((left, side)) if left == *interface => vec![Some(side)],
-                _ => vec![Some(Side::Positive), Some(Side::Negative)],
-            };
+            let mut of_interface = vec![Some(Side::Positive), Some(Side::Negative)];
             let is_left = self.left.is_some_and(|(left, _)| left == *interface);
             if !is_left && self.system.metadata().sliding.contains(interface) {
                 of_interface.push(None);

@@ -86,9 +86,12 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         let until = setting.t_end.min(beat);
         let mut step = setting.step.min(until - t);
         let mut after = flow(systems, &motion, t, &x, step);
-        // weights have poles, near which they change fast
-        while step > SHORTEST && systems.change(&motion, (t, &x), (t + step, &after)) > MOST_CHANGE
-        {
+        // weights have poles, near which they change fast, and beyond which the fields lead away
+        let passes_pole = |later: f64, after: &State| {
+            let changes = systems.change(&motion, (t, &x), (later, after)) > MOST_CHANGE;
+            changes || systems.is_repelling(&motion, later, after)
+        };
+        while step > SHORTEST && passes_pole(t + step, &after) {
             step *= 0.5;
             after = flow(systems, &motion, t, &x, step);
         }

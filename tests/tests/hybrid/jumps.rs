@@ -1,12 +1,11 @@
 //! Events: jumps of the state, discrete states, and what happens at given times.
 
-use dmm_runtime::dynamic::{AnySystem, InitialValue, Unobserved};
 use dmm_runtime::{
-    Best, Composed, Error, ErrorKind, Integrator, Mode, Model, Side, Symmetric, Taylor,
-    TransitionKind, pws,
+    Best, Composed, Error, ErrorKind, Integrator, Mode, Side, Symmetric, Taylor, TransitionKind,
+    pws,
 };
 
-use super::{Failure, Tolerance, run, same_at_run_time, times};
+use super::{Failure, best, run, same_at_run_time, times};
 
 pws! {
     /// A ball that loses speed where it bounces.
@@ -323,10 +322,7 @@ fn what_an_event_stops_rests_on_its_interface() -> Result<(), Failure> {
         on current falling { conducts = 0; i = 0; }
         on forward rising { conducts = 1; }
     }";
-    let model = Model::compile(declaration)?;
-    let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
-    let from = InitialValue::new(vec![0.1, 0.0], 60.0);
-    let end = model.integrate(&Tolerance(1e-13), &from, &mut Unobserved)?;
+    let end = best(declaration, 1e-13, &[0.1, 0.0], 60.0)?;
     // i stops once a period and goes on once
     assert_eq!(end.statistics.transitions, 18);
     assert!(end.x[0] >= 0.0);
@@ -337,9 +333,7 @@ fn what_an_event_stops_rests_on_its_interface() -> Result<(), Failure> {
         der(x) = -moving;
         on floor falling { moving = 0; }
     }";
-    let model: Box<dyn AnySystem<Tolerance>> = Model::compile(stop)?.into_any()?;
-    let from = InitialValue::new(vec![1.0], 3.0);
-    let end = model.integrate(&Tolerance(1e-13), &from, &mut Unobserved)?;
+    let end = best(stop, 1e-13, &[1.0], 3.0)?;
     assert_eq!((end.statistics.transitions, end.x), (1, vec![0.0]));
     Ok(())
 }

@@ -4,7 +4,9 @@ mod jumps;
 mod several;
 mod switches;
 
-use dmm_runtime::dynamic::{AnySystem, InitialValue, MethodChoice, MethodVisitor, Unobserved};
+use dmm_problems::method::{MethodName, Run};
+use dmm_problems::problem::Problem;
+use dmm_runtime::dynamic::{Finish, OutputTimes};
 use dmm_runtime::{Best, Error, Integrator, Method, Model, Solution, System};
 
 type Failure = Box<dyn std::error::Error>;
@@ -25,13 +27,19 @@ fn times<Sys: System<N>, Met: Method, const N: usize>(run: Solution<Sys, Met, N>
     run.transitions().iter().map(|one| one.t).collect()
 }
 
-/// `Best`, by a tolerance.
-struct Tolerance(f64);
-
-impl MethodChoice for Tolerance {
-    fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
-        visitor.visit(Best::tolerance(self.0))
-    }
+/// A system compiled at run time from (0, x₀) by `Best`: where it ends.
+fn best(declaration: &str, tolerance: f64, x0: &[f64], t_end: f64) -> Result<Finish, Failure> {
+    let problem = Problem::own(Model::compile(declaration)?)?;
+    let run = Run {
+        method: MethodName::Best,
+        step_size: 1.0,
+        tolerance,
+        level_correction: true,
+        initial: x0.to_vec(),
+        t_end,
+        output_times: OutputTimes::None,
+    };
+    Ok(problem.integrate_silently(&run)?)
 }
 
 /// Compares generated code with the same declaration compiled at run time.
@@ -40,10 +48,7 @@ fn same_at_run_time<Sys: System<N>, const N: usize>(
     x0: [f64; N],
     t_end: f64,
 ) -> Result<(), Failure> {
-    let model = Model::compile(system.declaration())?;
-    let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
-    let from = InitialValue::new(x0.to_vec(), t_end);
-    let end = model.integrate(&Tolerance(1e-12), &from, &mut Unobserved)?;
+    let end = best(system.declaration(), 1e-12, &x0, t_end)?;
     let expected = Integrator::new(system, Best::tolerance(1e-12)).initial(0.0, x0);
     let expected = expected.observe_until(t_end, &mut ())?;
     let name = system.metadata().name;

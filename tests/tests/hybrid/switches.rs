@@ -1,12 +1,10 @@
 //! Switches within formulas: `if`, `abs`, `sign`, `min`, `max` and `clamp`.
 
-use dmm_runtime::dynamic::{AnySystem, InitialValue, Unobserved};
 use dmm_runtime::{
-    Best, Composed, Error, ErrorKind, Integrator, Model, Symmetric, System, Taylor, TransitionKind,
-    pws,
+    Best, Composed, Error, ErrorKind, Integrator, Symmetric, System, Taylor, TransitionKind, pws,
 };
 
-use super::{Failure, Tolerance, run, same_at_run_time, times};
+use super::{Failure, best, run, same_at_run_time, times};
 
 pws! {
     /// A force of constant size towards the origin.
@@ -243,10 +241,7 @@ fn a_branch_may_have_no_value_on_the_other_side() -> Result<(), Failure> {
         conserved angular_momentum = x*v - y*u;
         conserved energy = (u^2 + v^2)/2 + potential;
     }";
-    let model = Model::compile(declaration)?;
-    let model: Box<dyn AnySystem<Tolerance>> = model.into_any()?;
-    let from = InitialValue::new(vec![2.0, 0.0, 0.0, 0.1], 50.0);
-    let end = model.integrate(&Tolerance(1e-12), &from, &mut Unobserved)?;
+    let end = best(declaration, 1e-12, &[2.0, 0.0, 0.0, 0.1], 50.0)?;
     assert!(
         end.statistics.transitions > 10,
         "{}",

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{Failure, Follow, Passage, Scheme, assert_close, model, run};
+use super::{Failure, Passage, Scheme, assert_close, follow, model, run};
 
 const BILLIARD: &str = include_str!("../../../problems/hybrid/elliptic_billiard.pws");
 /// The squares of the semi-axes.
@@ -69,20 +69,15 @@ fn drift(start: [f64; 4], impacts: u32) -> Result<[f64; 2], Failure> {
     let billiard = model(BILLIARD, &[])?;
     let mut x = start.to_vec();
     while count < impacts {
-        let piece = Follow {
-            scheme: Scheme::Taylor,
-            from: (0.0, &x),
-            t_end: PIECE,
-            watch: |impact: Passage| {
-                let values = conserved(&impact.after);
-                for (error, (value, level)) in errors.iter_mut().zip(values.iter().zip(levels)) {
-                    *error = error.max((value / level - 1.0).abs());
-                }
-                count += 1;
-                ControlFlow::Continue(())
-            },
+        let mut look = |impact: Passage| {
+            let values = conserved(&impact.after);
+            for (error, (value, level)) in errors.iter_mut().zip(values.iter().zip(levels)) {
+                *error = error.max((value / level - 1.0).abs());
+            }
+            count += 1;
+            ControlFlow::Continue(())
         };
-        (_, x) = billiard.visit(piece)??;
+        (_, x) = follow(&billiard, Scheme::Taylor, (&x, PIECE), &mut look)?;
     }
     Ok(errors)
 }

@@ -25,10 +25,10 @@ mod walker;
 
 use std::ops::ControlFlow;
 
-use dmm_runtime::{
-    Best, Error, Integrator, Method, Model, ModelVisitor, System, Taylor, Transition,
-    TransitionKind, on_transition,
-};
+use dmm_problems::method::{MethodName, Run};
+use dmm_problems::problem::Problem;
+use dmm_runtime::dynamic::{AnyObserver, Crossed, OutputTimes, Record};
+use dmm_runtime::{Model, TransitionKind};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -73,45 +73,55 @@ impl Way {
     }
 }
 
-/// A trajectory of a model from (t₀, x₀) that `watch` looks at.
-struct Follow<'a, W> {
+/// A trajectory of a model from (0, x₀) to a time, with a function that is told of each passage: the
+/// last point.
+fn follow(
+    model: &Model,
     scheme: Scheme,
-    from: (f64, &'a [f64]),
-    t_end: f64,
-    watch: W,
+    (x0, t_end): (&[f64], f64),
+    watch: &mut dyn FnMut(Passage) -> ControlFlow<()>,
+) -> Result<(f64, Vec<f64>), Failure> {
+    let problem = Problem::own(model.clone())?;
+    let run = Run {
+        method: match scheme {
+            Scheme::Best => MethodName::Best,
+            Scheme::Taylor => MethodName::Taylor,
+        },
+        step_size: 1.0,
+        tolerance: TOLERANCE,
+        level_correction: true,
+        initial: x0.to_vec(),
+        t_end,
+        output_times: OutputTimes::None,
+    };
+    let end = (0.0, x0.to_vec());
+    let mut observer = Watch { watch, end };
+    problem.integrate(&run, &mut observer)?;
+    Ok(observer.end)
 }
 
-impl<W: FnMut(Passage) -> ControlFlow<()>> Follow<'_, W> {
-    fn by<Sys: System<N>, Met: Method, const N: usize>(
-        mut self,
-        system: &Sys,
-        method: Met,
-    ) -> Result<(f64, Vec<f64>), Error> {
-        let states = system.metadata().states.len();
-        let mut observer = on_transition(|one: &Transition<Sys::Region, N>| {
-            (self.watch)(Passage {
-                t: one.t,
-                interface: one.interface,
-                jumped: one.kind == TransitionKind::Jumped,
-                before: one.x.as_slice()[..states].to_vec(),
-                after: one.after.as_slice()[..states].to_vec(),
-            })
-        });
-        let (t0, x0) = self.from;
-        let run = Integrator::new(system, method).initial(t0, x0);
-        let end = run.observe_until(self.t_end, &mut observer)?.point;
-        Ok((end.t, end.x.as_slice()[..states].to_vec()))
+/// Tells a function of the passages, and keeps the last point.
+struct Watch<'a> {
+    watch: &'a mut dyn FnMut(Passage) -> ControlFlow<()>,
+    end: (f64, Vec<f64>),
+}
+
+impl AnyObserver for Watch<'_> {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.end.0 = record.t;
+        self.end.1.clear();
+        self.end.1.extend(record.x);
+        ControlFlow::Continue(())
     }
-}
 
-impl<W: FnMut(Passage) -> ControlFlow<()>> ModelVisitor for Follow<'_, W> {
-    type Output = Result<(f64, Vec<f64>), Error>;
-
-    fn visit<Sys: System<N>, const N: usize>(self, system: Sys) -> Self::Output {
-        match self.scheme {
-            Scheme::Best => self.by(&system, Best::tolerance(TOLERANCE)),
-            Scheme::Taylor => self.by(&system, Taylor::tolerance(TOLERANCE)),
-        }
+    fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
+        (self.watch)(Passage {
+            t: crossed.t,
+            interface: crossed.interface,
+            jumped: crossed.kind == TransitionKind::Jumped,
+            before: crossed.x.clone(),
+            after: crossed.after.clone(),
+        })
     }
 }
 
@@ -127,33 +137,23 @@ fn model(declaration: &str, parameters: &[(&str, f64)]) -> Result<Model, Failure
 /// The trajectory from (0, x₀) to t.
 fn run(model: &Model, scheme: Scheme, x0: &[f64], t_end: f64) -> Result<Way, Failure> {
     let mut passages = Vec::new();
-    let (t, x) = model.visit(Follow {
-        scheme,
-        from: (0.0, x0),
-        t_end,
-        watch: |passage: Passage| {
-            passages.push(passage);
-            ControlFlow::Continue(())
-        },
-    })??;
+    let (t, x) = follow(model, scheme, (x0, t_end), &mut |passage| {
+        passages.push(passage);
+        ControlFlow::Continue(())
+    })?;
     Ok(Way { passages, t, x })
 }
 
 /// The trajectory from (0, x₀) to the first event.
 fn to_event(model: &Model, scheme: Scheme, x0: &[f64], latest: f64) -> Result<Passage, Failure> {
     let mut event = None;
-    model.visit(Follow {
-        scheme,
-        from: (0.0, x0),
-        t_end: latest,
-        watch: |passage: Passage| {
-            if !passage.jumped {
-                return ControlFlow::Continue(());
-            }
-            event = Some(passage);
-            ControlFlow::Break(())
-        },
-    })??;
+    follow(model, scheme, (x0, latest), &mut |passage| {
+        if !passage.jumped {
+            return ControlFlow::Continue(());
+        }
+        event = Some(passage);
+        ControlFlow::Break(())
+    })?;
     event.ok_or_else(|| "no event".into())
 }
 

@@ -5,7 +5,12 @@ mod codimension;
 mod friction;
 mod rules;
 
-use dmm_runtime::{Integrator, Model, ModelVisitor, System, Taylor, TransitionKind};
+use std::ops::ControlFlow;
+
+use dmm_problems::method::{MethodName, Run};
+use dmm_problems::problem::Problem;
+use dmm_runtime::dynamic::{AnyObserver, Crossed, OutputTimes, Record};
+use dmm_runtime::{Metadata, Model, TransitionKind};
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -26,43 +31,60 @@ struct Way {
     end: Vec<f64>,
 }
 
-/// A model from (0, x₀) until an end time by `Taylor`, with parameters changed.
+/// A system compiled at run time from (0, x₀) until an end time by `Taylor`, with parameters changed.
 fn taylor(
     declaration: &str,
     parameters: &[(&str, f64)],
     x0: &[f64],
     t_end: f64,
 ) -> Result<Way, Failure> {
-    struct Run<'a>(&'a [f64], f64);
-
-    impl ModelVisitor for Run<'_> {
-        type Output = Result<Way, Failure>;
-
-        fn visit<Sys: System<N>, const N: usize>(self, system: Sys) -> Self::Output {
-            let Self(x0, t_end) = self;
-            let run = Integrator::new(&system, Taylor::tolerance(1e-15)).initial(0.0, x0);
-            let run = run.run_until(t_end)?;
-            let metadata = system.metadata();
-            let passed = run.transitions().iter().map(|one| Passed {
-                t: one.t,
-                kind: one.kind,
-                interface: metadata.interfaces[one.interface],
-                to: system.of_region(one.to).name,
-                x: one.x.as_slice()[..x0.len()].to_vec(),
-            });
-            let end = run.last().ok_or("no point")?;
-            Ok(Way {
-                passed: passed.collect(),
-                end: end.x.as_slice()[..x0.len()].to_vec(),
-            })
-        }
-    }
-
     let mut model = Model::compile(declaration)?;
     for &(name, value) in parameters {
         model.set(name, value)?;
     }
-    model.visit(Run(x0, t_end))?
+    let problem = Problem::own(model)?;
+    let run = Run {
+        method: MethodName::Taylor,
+        step_size: 1.0,
+        tolerance: 1e-15,
+        level_correction: true,
+        initial: x0.to_vec(),
+        t_end,
+        output_times: OutputTimes::None,
+    };
+    let mut watch = Watch {
+        metadata: problem.metadata(),
+        way: Way {
+            passed: Vec::new(),
+            end: x0.to_vec(),
+        },
+    };
+    problem.integrate(&run, &mut watch)?;
+    Ok(watch.way)
+}
+
+/// Keeps the transitions and the last point.
+struct Watch {
+    metadata: &'static Metadata,
+    way: Way,
+}
+
+impl AnyObserver for Watch {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.way.end = record.x.to_vec();
+        ControlFlow::Continue(())
+    }
+
+    fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
+        self.way.passed.push(Passed {
+            t: crossed.t,
+            kind: crossed.kind,
+            interface: self.metadata.interfaces[crossed.interface],
+            to: self.metadata.regions[crossed.to.region].name,
+            x: crossed.x.clone(),
+        });
+        ControlFlow::Continue(())
+    }
 }
 
 /// What happened and where, as in `slid x`.
