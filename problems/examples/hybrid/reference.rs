@@ -98,6 +98,9 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         if !after.iter().all(|part| part.is_finite()) {
             return Err(Stop::Undecided("the field has no value"));
         }
+        if systems.is_repelling(&motion, t + step, &after) {
+            return Err(Stop::Undecided("a weight has a pole"));
+        }
         if !after.iter().all(|part| part.abs() < FAR) {
             return Err(Stop::Far);
         }

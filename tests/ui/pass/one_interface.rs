@@ -47,7 +47,7 @@ fn main() {
         assert_eq!(system.side(region, 0), Some(side));
         assert_eq!(system.side(region, 1), None);
         assert_eq!(system.neighbour(region, 0), Some(other));
-        assert_eq!(system.region_on(&[side], None), Some(region));
+        assert_eq!(system.region_on(&[Some(side)], None), Some(region));
     }
     assert!(system.declaration().contains("let force = -k_below * x;"));
 }
