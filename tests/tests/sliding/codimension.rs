@@ -6,12 +6,7 @@ use super::{Failure, assert_close, story, taylor};
 
 #[test]
 fn a_solution_slides_on_a_circle() -> Result<(), Failure> {
-    let declaration = "system Circle {
-        state x, y;
-        interface rim = x^2 + y^2 - 2, sliding;
-        region outside where rim > 0 { der(x) = 1; der(y) = -1; }
-        region inside where rim < 0 { der(x) = x; der(y) = y; }
-    }";
+    let declaration = include_str!("../../../problems/hybrid/circle.pws");
     let way = taylor(declaration, &[], &[-1.0, 0.1], 3.0)?;
     assert_eq!(story(&way), ["slides on rim", "leaves rim"]);
     // |x| = √2 where exp(t) |x₀| is; then the angle falls by tan
@@ -22,17 +17,11 @@ fn a_solution_slides_on_a_circle() -> Result<(), Failure> {
     Ok(())
 }
 
-/// §5.3 of Nurkanović, Sperl, Albrecht & Diehl (2024) without controls.
-const TWO_SURFACES: &str = "system Surfaces {
-    state x, y;
-    der(x) = if x + 0.15*y^2 > 0 sliding { -1 } else { 1 };
-    der(y) = if y - 0.05*x^3 > 0 sliding { -1 } else { 1 };
-}";
-
 #[test]
 fn two_curved_surfaces_lead_to_their_intersection() -> Result<(), Failure> {
     use std::f64::consts::PI;
-    let way = taylor(TWO_SURFACES, &[], &[2.0 * PI / 3.0, PI / 3.0], 4.0)?;
+    let declaration = include_str!("../../../problems/hybrid/surfaces.pws");
+    let way = taylor(declaration, &[], &[2.0 * PI / 3.0, PI / 3.0], 4.0)?;
     let expected = ["slides on y - x^3/20", "slides on x + 3*y^2/20"];
     assert_eq!(story(&way), expected);
     for value in &way.end {

@@ -110,12 +110,7 @@ fn dry_friction_as_a_switch_of_a_formula() -> Result<(), Failure> {
 #[test]
 fn the_stick_slip_oscillator_of_leine() -> Result<(), Failure> {
     // Leine, van Campen, de Kraker & van den Steen (1998), to the digits that exact flows give
-    let declaration = "system Leine {
-        state x, v;
-        interface belt = v - 0.2, sliding;
-        region faster where belt > 0 { der(x) = v; der(v) = -x - 1/(1 - 3*(0.2 - v)); }
-        region slower where belt < 0 { der(x) = v; der(v) = -x + 1/(1 + 3*(0.2 - v)); }
-    }";
+    let declaration = include_str!("../../../problems/hybrid/stick_slip.pws");
     let way = taylor(declaration, &[], &[0.0, 0.2], 30.0)?;
     let times: Vec<f64> = way.passed.iter().map(|one| one.t).collect();
     assert_close(times[1] - times[0], 4.295_999_525_480, 1e-11);

@@ -48,21 +48,7 @@ fn sliding_that_is_not_declared_is_an_error() {
 #[test]
 fn a_refuge_keeps_the_prey_at_its_threshold() -> Result<(), Failure> {
     // Křivan: predators see the prey above a threshold only
-    let declaration = "system Refuge {
-        state r, c;
-        param threshold = 0.5;
-        interface refuge = r - threshold, sliding;
-        region seen where refuge > 0 {
-            der(r) = r - r*c;
-            der(c) = r*c - c;
-            conserved level = r - ln(r) + c - ln(c);
-        }
-        region hidden where refuge < 0 {
-            der(r) = r;
-            der(c) = -c;
-            conserved product = r*c;
-        }
-    }";
+    let declaration = include_str!("../../../problems/hybrid/refuge.pws");
     let way = taylor(declaration, &[], &[0.5, 2.0], 20.0)?;
     assert_eq!(story(&way), ["leaves refuge"]);
     assert_close(way.passed[0].t, 3.0_f64.ln(), 1e-14);
