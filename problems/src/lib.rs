@@ -20,6 +20,7 @@ pub mod midpoint;
 pub mod perturbed;
 pub mod picture;
 pub mod problem;
+pub mod random;
 pub mod reference;
 pub mod registry;
 pub mod stress;

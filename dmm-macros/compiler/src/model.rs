@@ -319,12 +319,6 @@ impl Model {
         self.interfaces.iter().filter(|one| one.end.is_none())
     }
 
-    /// The number of an interface among the [free ones](Self::free_interfaces).
-    pub fn place_of_free(&self, interface: usize) -> Option<usize> {
-        let mut free = self.free_interfaces().into_iter();
-        free.position(|one| one == interface)
-    }
-
     /// The variables of the sides of what formulas switch at.
     pub fn switches(&self) -> impl Iterator<Item = &Name> {
         let switches = self.interfaces.iter().filter(|one| one.is_switch);

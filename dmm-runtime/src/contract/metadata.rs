@@ -89,9 +89,11 @@ impl RegionMetadata {
         may_slide: &[],
     };
 
-    /// Whether it is a part of the space, and no motion on interfaces.
-    pub fn is_open(&self) -> bool {
-        self.on.is_empty() && self.may_slide.is_empty()
+    /// On which side of a guard it lies, by its index in
+    /// [`Guards::sides`](crate::Guards::sides), if that bounds it whatever the mode.
+    #[inline]
+    pub fn side(&self, guard: usize) -> Option<Side> {
+        self.sides.get(guard).copied().flatten()
     }
 
     /// Whether it is the region on these sides of the interfaces, of which nothing stands for those
@@ -121,6 +123,14 @@ impl Metadata {
         let is_clock = |index| self.events.iter().any(|event| event.clock == Some(index));
         let discrete = self.discrete.iter().copied().enumerate();
         discrete.filter(move |&(index, _)| !is_clock(index))
+    }
+
+    /// The values of the [declared](Metadata::declared_discrete) discrete states, of the values of all
+    /// [`Metadata::discrete`] in a mode; NaN where there is none.
+    pub fn declared_values(&self, values: &[f64]) -> Vec<f64> {
+        let declared = self.declared_discrete();
+        let values = declared.map(|(index, _)| values.get(index).copied());
+        values.map(|value| value.unwrap_or(f64::NAN)).collect()
     }
 
     /// The index of the region on these sides of the interfaces; nothing stands for those that it

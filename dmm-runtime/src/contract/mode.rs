@@ -90,8 +90,7 @@ impl<R: Copy, const D: usize, const F: usize> Mode<R, D, F> {
     /// On which side of an interface the mode lies, whose region has an index.
     pub fn side(&self, metadata: &Metadata, index: usize, interface: usize) -> Option<Side> {
         let region = metadata.regions.get(index)?;
-        let own = region.sides.get(interface).copied().flatten();
-        own.or_else(|| {
+        region.side(interface).or_else(|| {
             let place = metadata.free.iter().position(|&one| one == interface)?;
             self.sides.get(place).copied().flatten()
         })

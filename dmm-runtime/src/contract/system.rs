@@ -109,7 +109,7 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// On which side of an interface a region lies, if the interface bounds it.
     #[inline]
     fn side(&self, region: Self::Region, interface: usize) -> Option<Side> {
-        self.of_region(region).sides.get(interface).copied()?
+        self.of_region(region).side(interface)
     }
 
     /// The region on the other side of an interface that bounds a region, if it is the only one:

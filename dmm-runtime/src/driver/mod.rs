@@ -5,13 +5,16 @@
 
 mod accumulation;
 mod around;
+mod choice;
 mod conditions;
 mod events;
+mod fit;
 mod integrator;
 mod modes;
 mod next;
 mod reading;
 mod recording;
+mod refusal;
 mod run;
 mod segment;
 mod start;

@@ -1,10 +1,11 @@
 //! The next mode: decided at a point of an interface by the rates dg/dt of the fields around it,
 //! behind the events that happen there.
 
-use super::around::{Around, stays};
+use super::around::Around;
 use super::conditions::check_conditions;
 use super::events::{Happened, happens};
 use super::reading::Reading;
+use super::refusal::stays;
 use crate::arithmetic::{State, Time};
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};

@@ -3,7 +3,7 @@
 //! Away from the interfaces the signs of the switching functions decide. On one of them the
 //! rates dg/dt = ∂ₜg + ∇g·f of both sides do: both up or both down is the region that they
 //! lead into; both inwards would slide; both outwards has two solutions, and the caller has
-//! to name the region. On several of them see the module `around`.
+//! to name the region. On several of them see the module `choice`.
 //!
 //! A region that is named is taken at its word also next to an interface: where g has the sign of the
 //! other side, but the field of the region named brings the solution to the interface within a time
@@ -86,7 +86,7 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
     }
     let metadata = system.metadata();
     for guard in metadata.interfaces.len()..metadata.first_condition() {
-        let bounds = system.of_region(region).sides.get(guard).copied().flatten();
+        let bounds = system.of_region(region).side(guard);
         let reading = Reading::new(system, region, guard, t, x);
         if bounds.is_some() && !reading.is_zero() && reading.value < 0.0 {
             return Err(ErrorKind::InvalidInput {

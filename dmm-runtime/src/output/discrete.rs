@@ -7,11 +7,9 @@ pub(super) fn discrete<Sys: System<N>, const N: usize>(
     system: &Sys,
     mode: Sys::Region,
 ) -> Vec<f64> {
-    let mut declared = system.metadata().declared_discrete().peekable();
-    if declared.peek().is_none() {
+    let metadata = system.metadata();
+    if metadata.discrete.is_empty() {
         return Vec::new();
     }
-    let constants = Sys::constants(mode);
-    let values = declared.map(|(index, _)| constants.get(index).copied());
-    values.map(|value| value.unwrap_or(f64::NAN)).collect()
+    metadata.declared_values(&Sys::constants(mode))
 }

@@ -3,11 +3,11 @@
 
 use crate::families::{Family, Plane, Scales, Space};
 use crate::judge::Class;
-use crate::random::Random;
 use crate::reference::distance;
 use crate::schemes::{Run, SETTINGS, Setting, run};
 use crate::study::Case;
 use crate::tally::Tally;
+use dmm_problems::random::Random;
 use dmm_problems::stress::{Extent, Observe, Row, Verdict};
 
 /// `Taylor` and `Best`, each to 10⁻¹².
@@ -27,7 +27,7 @@ fn family<Sys: Family<N>, const N: usize>(count: usize, observer: &mut dyn Obser
     let mut tallies = [Tally::default(), Tally::default()];
     let mut differences = 0;
     for index in 0..count {
-        let mut random = Random::new("affine", index);
+        let mut random = Random::new("affine", 0, index);
         let (system, initial) = Sys::draw(&mut random, Scales { l: 1.0, s: 1.0 });
         let t_end = random.between(8.0, 20.0);
         let runs = PAIR.map(|setting| run(&setting, &system, 1.0, initial, t_end));

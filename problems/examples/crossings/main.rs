@@ -22,7 +22,6 @@ mod formula;
 mod interval;
 mod judge;
 mod pairs;
-mod random;
 mod reference;
 mod schemes;
 mod series;

@@ -5,10 +5,10 @@ use crate::families::{
     Rational, Root, Scales, Sheets, Space, Wave,
 };
 use crate::judge::Truth;
-use crate::random::Random;
 use crate::reference::{Ending, Growth, Problem, Reference, accurate};
 use crate::schemes::{SETTINGS, in_turn, of_lanes};
 use crate::tally::Tally;
+use dmm_problems::random::Random;
 
 use dmm_problems::stress::{Extent, Observe};
 
@@ -132,7 +132,7 @@ impl Campaign<'_> {
     fn family<Sys: Family<N>, const N: usize>(&mut self) {
         let mut tallies = vec![Tally::default(); SETTINGS.len()];
         for group in 0..self.groups {
-            let mut random = Random::new(Sys::default().metadata().name, group);
+            let mut random = Random::new(Sys::default().metadata().name, 0, group);
             let mut scale = |size: f64| {
                 if random.once_in(3) {
                     random.decades(1.0 / size, size)

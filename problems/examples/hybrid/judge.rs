@@ -5,9 +5,9 @@ use dmm_runtime::{Error, Model};
 use crate::decide::Stop;
 use crate::motion::Systems;
 use crate::plant::State;
-use crate::random::Random;
 use crate::reference::{Setting, Solution, solve};
 use crate::run::{Run, Scheme, Told};
+use dmm_problems::random::Random;
 
 /// The step of the reference.
 const STEP: f64 = 0.05;

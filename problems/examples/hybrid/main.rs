@@ -3,7 +3,7 @@
 //!
 //! | file | |
 //! |---|---|
-//! | `families` | the systems, as data (`plant`), and their declarations (`text`) |
+//! | `families`, `parts` | the systems, as data (`plant`), and their declarations (`text`) |
 //! | `motion` | the field in a mode, with the weights of the mean while it slides |
 //! | `reference` | the slow solution, by steps of order 10 (`flow`); `decide` tells the next mode |
 //! | `run` | runs by the library |
@@ -20,8 +20,8 @@ mod families;
 mod flow;
 mod judge;
 mod motion;
+mod parts;
 mod plant;
-mod random;
 mod reference;
 mod run;
 mod study;

@@ -1,7 +1,7 @@
 //! A system as data: interfaces, fields and jumps as sums of products with coefficients. Its
 //! declaration is written from it, and the reference evaluates it.
 
-use crate::random::Random;
+use dmm_problems::random::Random;
 
 /// The most states.
 pub(crate) const MOST: usize = 6;

@@ -78,12 +78,12 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
     let on = (0..interfaces).filter(|&k| systems.g(k, 0.0, &solution.x).abs() < ON);
     let mut on: Vec<usize> = on.collect();
     let mut motion = next_motion(systems, solution, &on, 1.0)?;
-    let mut beats = 1.0;
+    let mut ticks = 1.0;
     loop {
         let Solution { t, x, .. } = *solution;
         let clock = systems.plant.clock.as_ref();
-        let beat = clock.map_or(f64::INFINITY, |(period, _)| beats * systems.c[*period]);
-        let until = setting.t_end.min(beat);
+        let tick = clock.map_or(f64::INFINITY, |(period, _)| ticks * systems.c[*period]);
+        let until = setting.t_end.min(tick);
         let mut step = setting.step.min(until - t);
         let mut after = flow(systems, &motion, t, &x, step);
         // weights have poles, near which they change fast, and beyond which the fields lead away
@@ -98,7 +98,7 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         if !after.iter().all(|part| part.is_finite()) {
             return Err(Stop::Undecided("the field has no value"));
         }
-        if systems.is_repelling(&motion, t + step, &after) {
+        if step <= SHORTEST && systems.is_repelling(&motion, t + step, &after) {
             return Err(Stop::Undecided("a weight has a pole"));
         }
         if !after.iter().all(|part| part.abs() < FAR) {
@@ -110,8 +110,8 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
             solution.t = if step >= until - t { until } else { t + step };
             solution.x = after;
             systems.project(&motion, solution.t, &mut solution.x);
-            if solution.t >= beat && beat < setting.t_end {
-                beats += 1.0;
+            if solution.t >= tick && tick < setting.t_end {
+                ticks += 1.0;
                 let jump = &clock.ok_or(Stop::None)?.1;
                 (motion, on) = jumped(systems, &motion, solution, (None, &[jump]))?;
             } else if solution.t >= setting.t_end {

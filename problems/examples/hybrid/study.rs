@@ -8,10 +8,10 @@ use crate::families::FAMILIES;
 use crate::judge::Case;
 use crate::motion::Systems;
 use crate::plant::{MOST, Plant, State};
-use crate::random::Random;
 use crate::run::Scheme;
 use crate::tally::Tally;
 use crate::text::declaration;
+use dmm_problems::random::Random;
 
 /// So many structures of a family.
 const STRUCTURES: usize = 16;

@@ -6,7 +6,7 @@ mod switches;
 
 use dmm_problems::method::{MethodName, Run};
 use dmm_problems::problem::Problem;
-use dmm_runtime::dynamic::{Finish, OutputTimes};
+use dmm_runtime::dynamic::Finish;
 use dmm_runtime::{Best, Error, Integrator, Method, Model, Solution, System};
 
 type Failure = Box<dyn std::error::Error>;
@@ -32,12 +32,10 @@ fn best(declaration: &str, tolerance: f64, x0: &[f64], t_end: f64) -> Result<Fin
     let problem = Problem::own(Model::compile(declaration)?)?;
     let run = Run {
         method: MethodName::Best,
-        step_size: 1.0,
         tolerance,
-        level_correction: true,
         initial: x0.to_vec(),
         t_end,
-        output_times: OutputTimes::None,
+        ..problem.default_run()
     };
     Ok(problem.integrate_silently(&run)?)
 }

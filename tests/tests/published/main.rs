@@ -27,7 +27,7 @@ use std::ops::ControlFlow;
 
 use dmm_problems::method::{MethodName, Run};
 use dmm_problems::problem::Problem;
-use dmm_runtime::dynamic::{AnyObserver, Crossed, OutputTimes, Record};
+use dmm_runtime::dynamic::{AnyObserver, Crossed, Record};
 use dmm_runtime::{Model, TransitionKind};
 
 type Failure = Box<dyn std::error::Error>;
@@ -87,12 +87,10 @@ fn follow(
             Scheme::Best => MethodName::Best,
             Scheme::Taylor => MethodName::Taylor,
         },
-        step_size: 1.0,
         tolerance: TOLERANCE,
-        level_correction: true,
         initial: x0.to_vec(),
         t_end,
-        output_times: OutputTimes::None,
+        ..problem.default_run()
     };
     let end = (0.0, x0.to_vec());
     let mut observer = Watch { watch, end };

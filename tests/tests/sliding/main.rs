@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use dmm_problems::method::{MethodName, Run};
 use dmm_problems::problem::Problem;
-use dmm_runtime::dynamic::{AnyObserver, Crossed, OutputTimes, Record};
+use dmm_runtime::dynamic::{AnyObserver, Crossed, Record};
 use dmm_runtime::{Metadata, Model, TransitionKind};
 
 type Failure = Box<dyn std::error::Error>;
@@ -45,12 +45,10 @@ fn taylor(
     let problem = Problem::own(model)?;
     let run = Run {
         method: MethodName::Taylor,
-        step_size: 1.0,
         tolerance: 1e-15,
-        level_correction: true,
         initial: x0.to_vec(),
         t_end,
-        output_times: OutputTimes::None,
+        ..problem.default_run()
     };
     let mut watch = Watch {
         metadata: problem.metadata(),

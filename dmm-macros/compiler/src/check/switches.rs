@@ -148,17 +148,15 @@ impl<'d> Resolver<'d> {
             return None;
         }
         let side = self.side_of(formula, g.id)?;
-        let dag = &mut self.evaluator.dag;
-        let one = dag.integer(1);
-        let other = dag.sub(one, side);
         let (mut u, mut v) = (u.id, v.id);
         if are_branches {
+            let dag = &mut self.evaluator.dag;
+            let one = dag.integer(1);
+            let other = dag.sub(one, side);
             (u, v) = (self.anywhere(u, side), self.anywhere(v, other));
         }
-        let dag = &mut self.evaluator.dag;
-        let (first, second) = (dag.mul(side, u), dag.mul(other, v));
         Some(Value {
-            id: dag.add(first, second),
+            id: self.evaluator.dag.blend(side, u, v),
             number: None,
         })
     }
@@ -217,13 +215,8 @@ impl<'d> Resolver<'d> {
             .filter_map(|id| Some((id, self.limited(id)?)))
             .collect();
         let dag = &mut self.evaluator.dag;
-        let (one, two) = (dag.integer(1), dag.integer(2));
-        let elsewhere = dag.sub(one, side);
-        let elsewhere = dag.div(elsewhere, two);
-        dag.with_parts(branch, &limited, |dag, part| {
-            let here = dag.mul(side, part);
-            dag.add(here, elsewhere)
-        })
+        let half = dag.fraction(1, 2);
+        dag.with_parts(branch, &limited, |dag, part| dag.blend(side, part, half))
     }
 
     /// The part of an operation that it may have no value for, if that part moves.

@@ -32,11 +32,13 @@ const MOST_ROWS: usize = 4;
 /// … and told if it is written with this many nodes.
 const MOST_NODES: usize = 160;
 
-/// What is known of the independence of `quantities`, or why there cannot be as many.
+/// What is known of the independence of `quantities`, or why there cannot be as many; of a motion that
+/// `may_rest` there can be as many as states.
 pub(super) fn examine(
     dag: &mut Dag,
     variables: &Variables,
     quantities: &[Quantity],
+    may_rest: bool,
 ) -> Result<Independence, RegionProblem> {
     let (n, count) = (variables.states.len(), quantities.len());
     if count == 0 {
@@ -62,7 +64,7 @@ pub(super) fn examine(
     if !sampled.independent {
         return Ok(Independence::Undecided);
     }
-    if count == n && quantities.iter().all(|quantity| quantity.autonomous) {
+    if !may_rest && count == n && quantities.iter().all(|quantity| quantity.autonomous) {
         return Err(RegionProblem::NothingMoves);
     }
     Ok(set_of_dependence(dag, &rows).unwrap_or(Independence::Generic))

@@ -115,10 +115,8 @@ fn leave_out_dependent(dag: &mut Dag, variables: &Variables, region: &mut Region
         let quantities = region.conserved.iter();
         let quantities = quantities.map(|psi| Quantity::new(dag, &variables.states, psi.psi));
         let quantities: Vec<Quantity> = quantities.collect();
-        let row = match independence::examine(dag, variables, &quantities) {
+        let row = match independence::examine(dag, variables, &quantities, true) {
             Err(RegionProblem::Dependent { row }) => row,
-            // it rests where as many surfaces meet as there are states
-            Err(RegionProblem::NothingMoves) => return,
             Err(_) => region.conserved.len().saturating_sub(1),
             Ok(_) => return,
         };
@@ -151,9 +149,10 @@ fn region_proofs(
     if evidence.len() < quantities.len() {
         return None;
     }
-    let independence = match independence::examine(dag, variables, &quantities) {
+    // a motion rests where as many surfaces meet as there are states
+    let may_rest = region.slide.is_some();
+    let independence = match independence::examine(dag, variables, &quantities, may_rest) {
         Ok(independence) => independence,
-        Err(RegionProblem::NothingMoves) if region.slide.is_some() => Independence::Generic,
         Err(problem) => {
             problem.report(region, diagnostics);
             return None;

@@ -7,16 +7,18 @@ use crate::algebra::{Dag, Id, Name, is_proved_zero, normalise};
 use crate::model::{Model, Sign};
 
 /// f₀ + Σ wₖ Fₖ with weights of interfaces, those of the place first.
+#[derive(Clone)]
 pub(super) struct Mean {
     /// f₀, by state.
     pub(super) base: Vec<Id>,
     /// The unknowns.
     pub(super) weights: Vec<Weight>,
-    /// What has to stay positive for the interfaces of the place, in terms of their weights.
+    /// What has to stay positive.
     pub(super) ends: Vec<WeightEnd>,
 }
 
 /// A weight.
+#[derive(Clone)]
 pub(super) struct Weight {
     /// The interface whose g it keeps at zero.
     pub(super) interface: usize,
@@ -27,8 +29,10 @@ pub(super) struct Weight {
 }
 
 /// c + Σ cₖ wₖ, where it becomes zero the motion leaves `interface` on a side.
+#[derive(Clone)]
 pub(super) struct WeightEnd {
     pub(super) constant: i64,
+    /// By weight; those behind them are zero.
     pub(super) factors: Vec<i64>,
     pub(super) interface: usize,
     pub(super) side: Sign,
@@ -52,7 +56,7 @@ pub(super) fn of_place(model: &mut Model, place: &Place) -> Option<Mean> {
         [] => Some(corners.mean(0, Vec::new(), Vec::new())),
         [interface] => {
             let column = corners.difference(dag, 1, 0);
-            let ends = both_sides(interface, 0, 1);
+            let ends = both_sides(interface, 0);
             Some(corners.mean(0, vec![(interface, column)], ends.into()))
         }
         [first, second] => {
@@ -61,9 +65,9 @@ pub(super) fn of_place(model: &mut Model, place: &Place) -> Option<Mean> {
             if !corners.is_sum(dag, &by_first, &by_second) {
                 return of_three(dag, place, &corners);
             }
-            let ends = both_sides(first, 0, 2)
+            let ends = both_sides(first, 0)
                 .into_iter()
-                .chain(both_sides(second, 1, 2));
+                .chain(both_sides(second, 1));
             let columns = vec![(first, by_first), (second, by_second)];
             Some(corners.mean(0, columns, ends.collect()))
         }
@@ -101,10 +105,10 @@ fn of_three(dag: &mut Dag, place: &Place, corners: &Corners) -> Option<Mean> {
     Some(corners.mean(of_c, columns, ends))
 }
 
-/// The ends of a weight, number `index` of `count`, that is 0 on the side g < 0 and 1 on the other.
-fn both_sides(interface: usize, index: usize, count: usize) -> [WeightEnd; 2] {
+/// The ends of weight number `index`, which is 0 on the side g < 0 and 1 on the other.
+fn both_sides(interface: usize, index: usize) -> [WeightEnd; 2] {
     let end = |constant, factor, side| {
-        let mut factors = vec![0; count];
+        let mut factors = vec![0; index + 1];
         factors[index] = factor;
         WeightEnd {
             constant,
@@ -208,6 +212,7 @@ impl Mean {
                 let jump = dag.sub(above, *part);
                 column.push(simplified(dag, jump));
             }
+            self.ends.extend(both_sides(interface, self.weights.len()));
             self.weights.push(Weight {
                 interface,
                 column,
@@ -257,12 +262,4 @@ pub(super) fn simplified(dag: &mut Dag, id: Id) -> Id {
         Some(normal) if dag.tree_size(normal) <= dag.tree_size(id) => normal,
         _ => id,
     }
-}
-
-/// s u + (1 − s) v
-pub(super) fn blend(dag: &mut Dag, s: Id, u: Id, v: Id) -> Id {
-    let one = dag.integer(1);
-    let other = dag.sub(one, s);
-    let (first, second) = (dag.mul(s, u), dag.mul(other, v));
-    dag.add(first, second)
 }

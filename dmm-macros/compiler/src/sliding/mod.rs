@@ -26,7 +26,8 @@ use quote::format_ident;
 use crate::diagnostics::Diagnostics;
 use crate::diagnostics::catalogue::check as codes;
 use crate::model::{Model, plain_text};
-use motion::motion;
+use mean::{Problem, of_place};
+use motion::{Motion, motion};
 use places::{Place, places};
 
 /// Adds the sliding motions to a model. Where something that is declared to slide cannot, that is
@@ -49,23 +50,18 @@ pub fn extend(model: &mut Model, diagnostics: &mut Diagnostics) {
     let regions = (0..declared).map(|region| Place::of_region(model, region));
     let mut known: HashSet<usize> = HashSet::new();
     for place in regions.chain(found).collect::<Vec<Place>>() {
-        for with_switches in [false, true] {
-            if place.on.is_empty() && !with_switches {
-                continue;
-            }
-            match motion(model, &place, with_switches) {
-                Ok(Some(motion)) => {
-                    known.extend(place.on.iter().copied());
-                    known.extend(motion.switches.iter().copied());
-                    let name = name(model, &place, with_switches);
+        match motions(model, &place) {
+            Ok(motions) => {
+                for motion in motions {
+                    known.extend(place.on.iter().chain(&motion.switches).copied());
+                    let name = name(model, &place, !motion.switches.is_empty());
                     motion.add_to(model, &place, name);
                 }
-                Ok(None) => {}
-                Err(problem) => {
-                    let span = model.interfaces[problem.interface].span;
-                    diagnostics.report(codes::NOT_A_MEAN, span, problem.message);
-                    return;
-                }
+            }
+            Err(problem) => {
+                let span = model.interfaces[problem.interface].span;
+                diagnostics.report(codes::NOT_A_MEAN, span, problem.message);
+                return;
             }
         }
     }
@@ -77,6 +73,21 @@ pub fn extend(model: &mut Model, diagnostics: &mut Diagnostics) {
         );
         diagnostics.report(codes::NO_SLIDING, interface.span, message);
     }
+}
+
+/// The motions at a place: on its interfaces alone, and on switches too.
+fn motions(model: &mut Model, place: &Place) -> Result<Vec<Motion>, Problem> {
+    let Some(mean) = of_place(model, place) else {
+        return Ok(Vec::new());
+    };
+    let mut motions = Vec::new();
+    if !place.on.is_empty() {
+        motions.extend(motion(model, &mean)?);
+    }
+    if let Some(mean) = mean.with_switches(model, place)? {
+        motions.extend(motion(model, &mean)?);
+    }
+    Ok(motions)
 }
 
 /// The name of a motion, which no other region has.

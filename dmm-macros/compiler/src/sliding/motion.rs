@@ -6,7 +6,7 @@ use num_traits::Signed;
 use proc_macro2::Ident;
 use quote::format_ident;
 
-use super::mean::{Mean, Problem, Weight, blend, of_place, simplified};
+use super::mean::{Mean, Problem, Weight, WeightEnd, simplified};
 use super::places::Place;
 use super::weights::{Solution, System};
 use crate::algebra::{Dag, Id, Math, Name, differentiate, gradient, is_proved_zero};
@@ -24,28 +24,15 @@ pub(super) struct Motion {
     kept: Vec<usize>,
 }
 
-/// The motion at a place, on its switches too if it is `with_switches`; nothing if there is none.
-pub(super) fn motion(
-    model: &mut Model,
-    place: &Place,
-    with_switches: bool,
-) -> Result<Option<Motion>, Problem> {
-    let Some(mut mean) = of_place(model, place) else {
-        return Ok(None);
-    };
-    if with_switches {
-        let Some(own) = mean.with_switches(model, place)? else {
-            return Ok(None);
-        };
-        mean = own;
-    }
-    let system = System::of(model, &mean);
-    let solutions = match system.solve(model, &mean)? {
+/// The motion along a mean; nothing if there is none.
+pub(super) fn motion(model: &mut Model, mean: &Mean) -> Result<Option<Motion>, Problem> {
+    let system = System::of(model, mean);
+    let solutions = match system.solve(model, mean)? {
         Some(solutions) => solutions,
         None => return Ok(None),
     };
-    let field = field(&mut model.dag, &mean, &solutions);
-    let ends = ends(&mut model.dag, &mean, &solutions);
+    let field = field(&mut model.dag, mean, &solutions);
+    let ends = ends(&mut model.dag, mean, &solutions);
     // a rate that is a negative number leads away
     let fails = ends.iter().any(|&(function, _)| {
         let value = model.dag.as_constant(function);
@@ -127,59 +114,49 @@ fn with_term(dag: &mut Dag, rest: Id, column: Id, solution: &Solution) -> Id {
     }
     let elsewhere = dag.mul(side, column);
     let elsewhere = dag.add(rest, elsewhere);
-    blend(dag, slides, sliding, elsewhere)
+    dag.blend(slides, sliding, elsewhere)
 }
 
-/// What is positive as long as the motion lasts, in terms of rates where a weight depends on no other
-/// one: dg/dt of the field on the side g < 0, and −dg/dt of that on the other side.
+/// What is positive as long as the motion lasts; of a switch as long as it slides, and 1 elsewhere.
 fn ends(dag: &mut Dag, mean: &Mean, solutions: &[Solution]) -> Vec<(Id, SlideEnd)> {
     let mut ends = Vec::new();
     for end in &mean.ends {
-        let single = |index: usize| {
-            let others = end.factors.iter().enumerate();
-            let mut others = others.filter(|(other, _)| *other != index);
-            others.all(|(_, &factor)| factor == 0)
-        };
-        let alone = (0..end.factors.len())
-            .find(|&index| single(index) && end.factors[index] != 0)
-            .and_then(|index| solutions[index].alone);
-        let function = match alone {
-            Some(alone) => rate(dag, alone, end.side),
-            None => {
-                let mut sum = dag.integer(end.constant);
-                for (&factor, solution) in end.factors.iter().zip(solutions) {
-                    let factor = dag.integer(factor);
-                    let term = dag.mul(factor, solution.weight);
-                    sum = dag.add(sum, term);
-                }
-                simplified(dag, sum)
-            }
-        };
-        let side = Some(end.side);
-        let interface = end.interface;
+        let own = end.factors.iter().zip(solutions);
+        let own: Vec<(i64, &Solution)> = (own.map(|(&factor, solution)| (factor, solution)))
+            .filter(|(factor, _)| *factor != 0)
+            .collect();
+        let mut function = end_function(dag, end, &own);
+        let mut switches = own.iter().filter_map(|(_, solution)| solution.switch);
+        if let Some((slides, _)) = switches.next() {
+            let one = dag.integer(1);
+            function = dag.blend(slides, function, one);
+        }
+        let (interface, side) = (end.interface, Some(end.side));
         ends.push((function, SlideEnd { interface, side }));
     }
-    for (weight, solution) in mean.weights.iter().zip(solutions) {
-        let Some((slides, _)) = solution.switch else {
-            continue;
-        };
-        for side in [Sign::Negative, Sign::Positive] {
-            let function = match (solution.alone, side) {
-                (Some(alone), side) => rate(dag, alone, side),
-                (None, Sign::Negative) => solution.weight,
-                (None, Sign::Positive) => {
-                    let one = dag.integer(1);
-                    dag.sub(one, solution.weight)
-                }
-            };
-            let one = dag.integer(1);
-            let function = blend(dag, slides, function, one);
-            let interface = weight.interface;
-            let side = Some(side);
-            ends.push((function, SlideEnd { interface, side }));
-        }
-    }
     ends
+}
+
+/// c + Σ cₖ wₖ, or in terms of rates where a weight depends on no other one: dg/dt of the field on the
+/// side g < 0, and −dg/dt of that on the other side.
+fn end_function(dag: &mut Dag, end: &WeightEnd, own: &[(i64, &Solution)]) -> Id {
+    if let [(_, solution)] = own
+        && let Some(alone) = solution.alone
+    {
+        return rate(dag, alone, end.side);
+    }
+    let mut sum = dag.integer(end.constant);
+    for &(factor, solution) in own {
+        let factor = dag.integer(factor);
+        let term = dag.mul(factor, solution.weight);
+        sum = dag.add(sum, term);
+    }
+    // the weights of switches that depend on one another are long
+    if own.iter().any(|(_, solution)| solution.switch.is_some()) {
+        sum
+    } else {
+        simplified(dag, sum)
+    }
 }
 
 /// How fast the field on a side leads to the interface: with slope w = right and 0 ≤ w ≤ 1, the rate
@@ -236,7 +213,7 @@ impl Motion {
             let dag = &mut model.dag;
             let slides = dag.variable(&slides);
             let one = dag.integer(1);
-            let function = blend(dag, slides, one, g);
+            let function = dag.blend(slides, one, g);
             switches.push((interface, model.interfaces.len()));
             let side = None;
             add_end(model, function, SlideEnd { interface, side });

@@ -1,7 +1,7 @@
 //! The weights of a mean, solved for: Σₖ ∇gᵣ·Fₖ wₖ + ∂ₜgᵣ + ∇gᵣ·f₀ = 0 for the interface of every
 //! weight r.
 
-use super::mean::{Mean, Problem, blend, simplified};
+use super::mean::{Mean, Problem, simplified};
 use crate::algebra::linear::determinant;
 use crate::algebra::{Dag, Id, differentiate, gradient, is_proved_zero};
 use crate::model::Model;
@@ -130,9 +130,9 @@ impl System {
             };
             for (column, entry) in matrix[row].iter_mut().enumerate() {
                 let unit = dag.integer(i64::from(row == column));
-                *entry = blend(dag, slides, *entry, unit);
+                *entry = dag.blend(slides, *entry, unit);
             }
-            right[row] = blend(dag, slides, right[row], side);
+            right[row] = dag.blend(slides, right[row], side);
         }
         for (row, &right) in matrix.iter_mut().zip(&right) {
             row.push(right);

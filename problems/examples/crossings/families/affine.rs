@@ -4,8 +4,8 @@ use dmm_runtime::pws;
 
 use super::{Family, Scales, problem, start};
 use crate::formula::{Formulas, Writer};
-use crate::random::Random;
 use crate::reference::Problem;
+use dmm_problems::random::Random;
 
 /// An affine system in formulas: the rows of A and b of each side, and those of g.
 fn affine<const N: usize>(

@@ -7,8 +7,8 @@
 use dmm_runtime::System;
 
 use crate::formula::{Formula, Formulas, Writer};
-use crate::random::Random;
 use crate::reference::Problem;
+use dmm_problems::random::Random;
 
 mod affine;
 mod algebraic;

@@ -3,8 +3,8 @@
 use dmm_runtime::pws;
 
 use super::{Family, Force, Scales, moving, problem, start, switching};
-use crate::random::Random;
 use crate::reference::Problem;
+use dmm_problems::random::Random;
 
 pws! {
     /// Stripes that are up to a thousandth wide; pendulums.

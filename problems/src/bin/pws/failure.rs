@@ -8,7 +8,8 @@ use dmm_problems::registry::Unknown;
 use dmm_problems::work_precision::GoalError;
 use thiserror::Error;
 
-use crate::interrupt;
+/// The exit status of a program that Ctrl-C has ended: 128 and the number of the signal.
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Why a command ends without success.
 #[derive(Debug, Error)]
@@ -51,7 +52,7 @@ impl Failure {
     pub(crate) fn status(&self) -> u8 {
         match self {
             Self::Stopped(_) => 1,
-            Self::Interrupted(_) => interrupt::STATUS,
+            Self::Interrupted(_) => INTERRUPTED,
             Self::ReaderGone => 0,
             Self::Request(_) | Self::Unknown(_) | Self::Write { .. } | Self::Read { .. } => 2,
         }

@@ -7,10 +7,7 @@ use std::sync::{Arc, OnceLock};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
-use crate::failure::Failure;
-
-/// The exit status of a program that Ctrl-C has ended: 128 and the number of the signal.
-pub(crate) const STATUS: u8 = 130;
+use crate::failure::{Failure, INTERRUPTED};
 
 /// Whether Ctrl-C was pressed; nothing as long as nobody asks.
 static REQUESTED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
@@ -22,7 +19,7 @@ pub(crate) fn listen() -> Result<(), Failure> {
         return Ok(());
     }
     // in this order: the first signal finds the flag unset, the second finds it set
-    flag::register_conditional_shutdown(SIGINT, i32::from(STATUS), Arc::clone(&requested))
+    flag::register_conditional_shutdown(SIGINT, i32::from(INTERRUPTED), Arc::clone(&requested))
         .and_then(|_| flag::register(SIGINT, requested))
         .map(|_| ())
         .map_err(|error| Failure::Stopped(format!("cannot listen to Ctrl-C: {error}")))

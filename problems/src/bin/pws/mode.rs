@@ -14,9 +14,7 @@ use crate::output;
 
 /// The discrete states of a mode, as they are declared.
 pub(crate) fn discrete(problem: &Problem, mode: &AnyMode) -> Vec<f64> {
-    let declared = problem.metadata().declared_discrete();
-    let values = declared.map(|(index, _)| mode.discrete.get(index).copied());
-    values.map(|value| value.unwrap_or(f64::NAN)).collect()
+    problem.metadata().declared_values(&mode.discrete)
 }
 
 /// The names of the discrete states, as they are declared.

@@ -237,6 +237,14 @@ impl Dag {
             .fold(zero, |sum, term| self.add(sum, term))
     }
 
+    /// s u + (1 − s) v
+    pub fn blend(&mut self, s: Id, u: Id, v: Id) -> Id {
+        let one = self.integer(1);
+        let other = self.sub(one, s);
+        let (first, second) = (self.mul(s, u), self.mul(other, v));
+        self.add(first, second)
+    }
+
     /// (a + b)/2
     pub fn mean(&mut self, a: Id, b: Id) -> Id {
         let half = self.fraction(1, 2);

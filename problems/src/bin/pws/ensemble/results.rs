@@ -7,11 +7,13 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use dmm_problems::problem::{Arrival, MemberOutcome, Problem, Run, Start};
+use dmm_runtime::Metadata;
 
 use super::cells::{Cell, Column, Kind};
 use super::members::Row;
 use super::table::Table;
 use crate::failure::Failure;
+use crate::mode;
 use crate::output;
 use crate::progress::Progress;
 use crate::scheme;
@@ -23,8 +25,7 @@ pub(crate) type Waiting = RefCell<VecDeque<Row>>;
 pub(crate) struct Results {
     table: Table,
     regions: Vec<&'static str>,
-    /// The discrete states that are written.
-    discrete: Vec<usize>,
+    metadata: &'static Metadata,
     progress: Progress,
     /// How many members there will be, if that is known.
     count: Option<u64>,
@@ -52,8 +53,8 @@ impl Results {
         columns.extend(states.iter().map(|name| number(&format!("{name}(0)"))));
         columns.extend([number("t"), column("region", Kind::Text)]);
         columns.extend(states.iter().map(|name| number(name)));
-        let discrete: Vec<_> = problem.metadata().declared_discrete().collect();
-        columns.extend(discrete.iter().map(|(_, name)| number(name)));
+        let discrete = mode::discrete_names(problem);
+        columns.extend(discrete.iter().map(|name| number(name)));
         columns.extend(["steps", "transitions"].map(|name| column(name, Kind::Count)));
         columns.push(column("failure", Kind::Text));
         Ok(Self {
@@ -69,7 +70,7 @@ impl Results {
                 parameters.len() + states.len(),
                 states.len() + discrete.len() + 4,
             ),
-            discrete: discrete.into_iter().map(|(index, _)| index).collect(),
+            metadata: problem.metadata(),
         })
     }
 
@@ -124,9 +125,8 @@ impl Results {
                 let region = region.unwrap_or_default().to_owned();
                 cells.extend([Cell::Number(arrival.t), Cell::Text(region)]);
                 cells.extend(arrival.x.into_iter().map(Cell::Number));
-                let discrete = self.discrete.iter();
-                let discrete = discrete.map(|&index| arrival.mode.discrete.get(index).copied());
-                cells.extend(discrete.map(|value| value.map_or(Cell::Missing, Cell::Number)));
+                let discrete = self.metadata.declared_values(&arrival.mode.discrete);
+                cells.extend(discrete.into_iter().map(Cell::Number));
                 let counts = arrival.statistics;
                 cells.extend([counts.steps, counts.transitions].map(Cell::Count));
                 self.steps += counts.steps;
