@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
+    "random",
     "fit",
     "picture",
     "midpoint",
