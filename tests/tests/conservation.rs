@@ -98,6 +98,7 @@ fn explicit_midpoint_does_not_conserve() {
     let problem = find("elliptic").unwrap();
     let mut run = problem.default_run();
     run.method = MethodName::ExplicitMidpoint;
+    run.level_correction = false;
     run.step_size = 1e-3;
     run.t_end = 10.0;
     let midpoint = measure(&problem, &run, &mut |_| ControlFlow::Continue(())).unwrap();

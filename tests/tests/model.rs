@@ -1,31 +1,16 @@
 //! Systems that are compiled at run time give what those compiled with a program give, to rounding.
 
-use dmm_problems::problem::Description;
+use dmm_problems::method::MethodName;
+use dmm_problems::problem::{Description, Problem, Run};
 use dmm_problems::registry::{SystemVisitor, visit_systems};
-use dmm_runtime::dynamic::{
-    AnyObserver, AnySystem, Crossed, Erased, Finish, InitialValue, MethodChoice, MethodVisitor,
-    Parallelism, Start, Unobserved,
-};
-use dmm_runtime::{Best, Error, Model, Symmetric, System, Taylor};
+use dmm_runtime::dynamic::{AnyObserver, Crossed, Finish, Parallelism, Start};
+use dmm_runtime::{Best, End, Error, Integrator, Method, Model, Symmetric, System, Taylor, Vector};
 use std::ops::ControlFlow;
 
 /// The methods that are compared: one-step, Taylor, and exact flows.
-#[derive(Clone, Copy, Debug)]
-enum Choice {
-    Symmetric(f64),
-    Taylor,
-    Best,
-}
+const METHODS: [MethodName; 3] = [MethodName::Symmetric, MethodName::Taylor, MethodName::Best];
 
-impl MethodChoice for Choice {
-    fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
-        match *self {
-            Self::Symmetric(step_size) => visitor.visit(Symmetric::step_size(step_size)),
-            Self::Taylor => visitor.visit(Taylor::tolerance(1e-9)),
-            Self::Best => visitor.visit(Best::tolerance(1e-12)),
-        }
-    }
-}
+const TOLERANCE: f64 = 1e-12;
 
 /// The time of a comparison: rounding errors of chaotic solutions have not grown far.
 const LONGEST: f64 = 5.0;
@@ -40,9 +25,32 @@ struct Compare {
     equal: usize,
 }
 
-fn compiled_at_run_time(declaration: &str) -> Box<dyn AnySystem<Choice>> {
+fn compiled_at_run_time(declaration: &str) -> Problem {
     let model = Model::compile(declaration).unwrap_or_else(|error| panic!("{error}"));
-    model.into_any().unwrap()
+    Problem::own(model).unwrap()
+}
+
+/// A run of a problem from elsewhere.
+fn run(problem: &Problem, method: MethodName, initial: &[f64], t_end: f64) -> Run {
+    Run {
+        method,
+        tolerance: TOLERANCE,
+        initial: initial.to_vec(),
+        t_end,
+        ..problem.default_run()
+    }
+}
+
+/// A run of a system that is compiled with this test.
+fn compiled<Sys: System<N>, Met: Method, const N: usize>(
+    system: &Sys,
+    method: Met,
+    initial: &[f64],
+    t_end: f64,
+) -> End<Sys::Region, N> {
+    let initial = Vector::<f64, N>::from_column_slice(initial);
+    let problem = Integrator::new(system, method).initial(0.0, initial);
+    problem.observe_until(t_end, &mut ()).unwrap()
 }
 
 impl SystemVisitor for Compare {
@@ -50,45 +58,56 @@ impl SystemVisitor for Compare {
         &mut self,
         description: &'static Description,
     ) {
-        let compiled: Box<dyn AnySystem<Choice>> = Erased::boxed(Sys::default());
-        let model = compiled_at_run_time(compiled.declaration());
-        assert_eq!(model.metadata(), compiled.metadata());
-        assert_eq!(model.parameters(), compiled.parameters());
-        assert_eq!(model.defaults(), compiled.defaults());
-        assert_eq!(model.listing(), compiled.listing());
+        let system = Sys::default();
+        let model = compiled_at_run_time(system.declaration());
+        let parameters = model.parameters().into_iter().map(|(_, value)| value);
+        assert_eq!(model.metadata(), system.metadata());
+        assert_eq!(parameters.collect::<Vec<_>>(), system.parameters());
+        assert!(model.has_default_parameters());
+        assert_eq!(model.listing(), system.listing());
+        let x0 = description.initial;
         let t_end = description.t_end.min(LONGEST);
-        let from = InitialValue::new(description.initial.to_vec(), t_end);
         let step_size = description.step_size.max(1e-3);
-        for choice in [Choice::Symmetric(step_size), Choice::Taylor, Choice::Best] {
-            let [expected, end] = [&compiled, &model]
-                .map(|system| system.integrate(&choice, &from, &mut Unobserved).unwrap());
-            let name = description.name;
+        for method in METHODS {
+            let name = format!("{} {}", description.name, method.name());
+            let expected = match method {
+                MethodName::Symmetric => {
+                    compiled(&system, Symmetric::step_size(step_size), x0, t_end)
+                }
+                MethodName::Taylor => compiled(&system, Taylor::tolerance(TOLERANCE), x0, t_end),
+                _ => compiled(&system, Best::tolerance(TOLERANCE), x0, t_end),
+            };
+            let run = Run {
+                step_size,
+                ..run(&model, method, x0, t_end)
+            };
+            let end = model.integrate_silently(&run).unwrap();
             assert_eq!(
                 (end.statistics.steps, end.statistics.transitions),
                 (expected.statistics.steps, expected.statistics.transitions),
-                "{name} {choice:?}"
+                "{name}"
             );
             self.runs += 1;
             self.transitions += end.statistics.transitions;
-            self.equal += usize::from(end.x == expected.x);
-            let size = expected.x.iter().fold(1.0f64, |size, x| size.max(x.abs()));
-            for (a, b) in end.x.iter().zip(&expected.x) {
+            let x = expected.point.x;
+            self.equal += usize::from(end.x == x.as_slice());
+            let size = x.amax().max(1.0);
+            for (a, b) in end.x.iter().zip(&x) {
                 let error = (a - b).abs() / size;
-                assert!(error <= ROUNDING, "{name} {choice:?}: {error:e}");
+                assert!(error <= ROUNDING, "{name}: {error:e}");
             }
         }
-        for region in 0..compiled.metadata().regions.len() {
-            let x = description.initial;
+        for (index, region) in system.regions().enumerate() {
             assert_eq!(
-                model.vector_field(region, 0.3, x).len(),
-                compiled.metadata().states.len()
+                model.vector_field(index, 0.3, x0).len(),
+                model.states().len()
             );
-            let psi = [&compiled, &model].map(|system| system.conserved(region, 0.3, x));
-            assert_eq!(
-                psi[0].len(),
-                compiled.metadata().regions[region].conserved.len()
-            );
-            for (a, b) in psi[0].iter().zip(&psi[1]) {
+            let x = Vector::<f64, N>::from_column_slice(x0);
+            let expected = system.conserved(region, 0.3, &x);
+            let psi = model.conserved(index, 0.3, x0);
+            assert_eq!(psi.len(), model.conserved_names(index).len());
+            assert_eq!(psi.len(), expected.len());
+            for (a, b) in psi.iter().zip(&expected) {
                 assert!((a - b).abs() <= 1e-14 * (1.0 + a.abs()), "{a} {b}");
             }
         }
@@ -125,9 +144,8 @@ const BALL: &str = "system Ball {
 fn fall(k: f64, t_end: f64) -> Result<Finish, Error> {
     let mut model = Model::compile(BALL).unwrap();
     model.set("k", k)?;
-    let ball = model.into_any()?;
-    let from = InitialValue::new(vec![1.0, 0.0], t_end);
-    ball.integrate(&Choice::Best, &from, &mut Unobserved)
+    let ball = Problem::own(model)?;
+    ball.integrate_silently(&run(&ball, MethodName::Best, &[1.0, 0.0], t_end))
 }
 
 #[test]
@@ -181,7 +199,7 @@ fn mistakes_are_told_by_line_and_column() {
         conserved c0 = x[0]; conserved c1 = x[1]; conserved c2 = x[2]; conserved c3 = x[3];
         conserved c4 = x[4]; conserved c5 = x[5]; conserved c6 = x[6]; conserved c7 = x[7];
         conserved c8 = x[8]; }";
-    let error = Model::compile(rests).map(|model| model.into_any::<Choice>().map(drop));
+    let error = Model::compile(rests).map(|model| Problem::own(model).map(drop));
     assert!(
         format!("{error:?}").contains("8 conserved quantities"),
         "{error:?}"
@@ -190,12 +208,10 @@ fn mistakes_are_told_by_line_and_column() {
 
 #[test]
 fn a_start_has_as_many_entries_as_there_are_states() {
-    let ball: Box<dyn AnySystem<Choice>> = compiled_at_run_time(BALL);
-    for initial in [vec![], vec![1.0], vec![1.0, 0.0, 0.0]] {
-        let from = InitialValue::new(initial, 1.0);
-        let error = ball
-            .integrate(&Choice::Best, &from, &mut Unobserved)
-            .unwrap_err();
+    let ball = compiled_at_run_time(BALL);
+    for initial in [&[][..], &[1.0], &[1.0, 0.0, 0.0]] {
+        let from = run(&ball, MethodName::Best, initial, 1.0);
+        let error = ball.integrate_silently(&from).unwrap_err();
         assert!(error.to_string().contains("as many entries"), "{error}");
     }
 }
@@ -220,8 +236,9 @@ fn ensembles_and_observers_have_the_states_of_the_system_alone() {
         }
     }
     let mut lengths = Lengths(0);
-    let from = InitialValue::new(vec![1.0, 0.2, 0.4], 20.0);
-    let end = top.integrate(&Choice::Taylor, &from, &mut lengths).unwrap();
+    let from = run(&top, MethodName::Taylor, &[1.0, 0.2, 0.4], 20.0);
+    top.integrate(&from, &mut lengths).unwrap();
+    let end = top.integrate_silently(&from).unwrap();
     assert!(lengths.0 > 10, "{}", lengths.0);
     for lanes in [false, true] {
         let parallelism = Parallelism {
@@ -233,21 +250,15 @@ fn ensembles_and_observers_have_the_states_of_the_system_alone() {
             initial: vec![1.0, 0.2, 0.4],
         });
         let mut arrivals = 0;
-        top.integrate_all(
-            &Choice::Taylor,
-            20.0,
-            parallelism,
-            &mut starts,
-            &mut |outcome| {
-                let x = outcome.arrival.unwrap().x;
-                assert_eq!(x.len(), 3);
-                for (a, b) in x.iter().zip(&end.x) {
-                    assert!((a - b).abs() < 1e-7, "{x:?}");
-                }
-                arrivals += 1;
-                ControlFlow::Continue(())
-            },
-        );
+        top.integrate_all(&from, parallelism, &mut starts, &mut |outcome| {
+            let x = outcome.arrival.unwrap().x;
+            assert_eq!(x.len(), 3);
+            for (a, b) in x.iter().zip(&end.x) {
+                assert!((a - b).abs() < 1e-7, "{x:?}");
+            }
+            arrivals += 1;
+            ControlFlow::Continue(())
+        });
         assert_eq!(arrivals, 20);
     }
 }

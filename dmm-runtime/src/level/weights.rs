@@ -88,7 +88,7 @@ impl<const N: usize, S: Masked> Weights<N, S> {
 
     /// Whether the error of second order of a displacement is more than a rounding error.
     #[inline(always)]
-    pub(super) fn are_left_by(&self, displacement: &Vector<S, N>) -> S::Mask {
+    pub(crate) fn are_left_by(&self, displacement: &Vector<S, N>) -> S::Mask {
         let coarse = S::from_f64(COARSE * COARSE) * self.unit;
         (0..N).fold(S::Mask::all_are(false), |any, i| {
             let square = displacement[i] * displacement[i];

@@ -7,8 +7,8 @@ use dmm_runtime::{
 };
 
 use super::report::{Extent, Observe, Row, Verdict, kind_of};
-use crate::picture::Panel;
 use crate::systems::Elliptic;
+use dmm_picture::Panel;
 
 pws! {
     /// ẋ = x², which is infinite at t = 1/x(0).

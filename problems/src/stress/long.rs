@@ -4,13 +4,13 @@
 
 use std::ops::ControlFlow;
 
-use super::growth::Growth;
 use super::report::{Extent, Observe, Row, Verdict, kind_of};
 use super::setting::Setting;
+use crate::growth::Growth;
 use crate::method::MethodName;
-use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Problem, Record, Run};
 use crate::registry::find;
+use dmm_picture::{Axis, Look, Panel, Scale, Stroke};
 
 /// Evaluating ψ costs two or three roundings of its terms, the state's own one each.
 const BOUND: f64 = 8.0;
@@ -113,7 +113,7 @@ fn measure(
     observer: &mut dyn Observe,
 ) -> Option<(Row, Growth)> {
     let mut meter = Meter {
-        growth: Growth::new(),
+        growth: Growth::default(),
         steps: 0,
         wanted: steps,
         is_stopped: false,

@@ -5,7 +5,6 @@
 //! and draws what it saw.
 
 mod failures;
-mod growth;
 mod long;
 mod report;
 mod scales;
@@ -18,7 +17,7 @@ mod transitions;
 
 pub use report::{Extent, Observe, Row, Verdict, kind_of};
 
-use crate::picture::Panel;
+use dmm_picture::Panel;
 
 /// A study.
 #[derive(Clone, Copy, Debug)]
@@ -75,45 +74,3 @@ pub const STUDIES: [Study; 7] = [
         study: failures::study,
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    use std::ops::ControlFlow;
-
-    use super::*;
-
-    #[derive(Default)]
-    struct Seen {
-        begun: usize,
-        rows: Vec<Row>,
-    }
-
-    impl Observe for Seen {
-        fn begins(&mut self, _case: &str) -> ControlFlow<()> {
-            self.begun += 1;
-            ControlFlow::Continue(())
-        }
-
-        fn at(&mut self, share: f64) -> ControlFlow<()> {
-            assert!((0.0..=1.0).contains(&share), "{share}");
-            ControlFlow::Continue(())
-        }
-
-        fn ended(&mut self, row: Row) {
-            self.rows.push(row);
-        }
-    }
-
-    #[test]
-    fn nothing_is_wrong_in_silence() {
-        let mut wrong = Vec::new();
-        for study in STUDIES {
-            let mut seen = Seen::default();
-            study.run(Extent::Brief, &mut seen);
-            assert!(seen.begun > 1 && seen.rows.len() > 1, "{}", study.name);
-            let rows = seen.rows.into_iter();
-            wrong.extend(rows.filter(|row| row.verdict == Verdict::Wrong));
-        }
-        assert!(wrong.is_empty(), "{wrong:#?}");
-    }
-}

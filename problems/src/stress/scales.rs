@@ -7,8 +7,8 @@
 use super::report::{Extent, Observe, Row, Verdict};
 use super::setting::{SETTINGS, Setting};
 use super::systems::{circle, quartic};
-use crate::picture::Panel;
 use crate::problem::{AnyObserver, OutputTimes, Problem, Run};
+use dmm_picture::Panel;
 use dmm_runtime::Error;
 
 /// The states agree but for rounding errors; of a quartic ψ at the small end most digits are lost

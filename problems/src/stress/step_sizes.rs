@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 use super::report::{Extent, Observe, Row, Verdict, kind_of};
 use super::setting::{SETTINGS, Setting};
 use crate::conservation::{Conservation, measure};
-use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::Run;
 use crate::registry::find;
+use dmm_picture::{Axis, Look, Panel, Scale, Stroke};
 use dmm_runtime::Error;
 
 /// Evaluating ψ costs two or three roundings of its terms, the state's own one each; at the limit

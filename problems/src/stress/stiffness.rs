@@ -7,9 +7,9 @@ use std::ops::ControlFlow;
 use super::report::{Extent, Observe, Row, Verdict};
 use super::setting::{SETTINGS, Setting};
 use crate::method::Control;
-use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Run};
 use crate::registry::find;
+use dmm_picture::{Axis, Look, Panel, Scale, Stroke};
 
 /// Steps in a half period of the stiffer side.
 const STEPS: f64 = 50.0;

@@ -14,8 +14,8 @@ use num_rational::BigRational;
 use super::report::{Extent, Observe, Row, Verdict, kind_of};
 use super::setting::{SETTINGS, Setting};
 use super::systems::{circle, quartic};
-use crate::picture::{Axis, Look, Panel, Scale, Stroke};
 use crate::problem::{AnyObserver, Crossed, Problem, Run};
+use dmm_picture::{Axis, Look, Panel, Scale, Stroke};
 
 /// Steps in the half turn before the wall.
 const STEPS: f64 = 200.0;

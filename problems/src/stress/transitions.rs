@@ -10,16 +10,16 @@ use dmm_runtime::{Integrator, Observer, Taylor, Transition};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
-use super::growth::Growth;
 use super::report::{Extent, Observe, Row, Verdict};
 use super::setting::{SETTINGS, Setting};
 use super::systems::warped;
-use crate::picture::{Axis, Look, Panel, Scale, Stroke};
+use crate::growth::Growth;
 use crate::problem::{AnyObserver, Crossed, Problem, Record, Run};
 use crate::reference::Reference;
 use crate::registry::find;
 use crate::systems::Elliptic;
 use crate::systems::elliptic::EllipticRegion;
+use dmm_picture::{Axis, Look, Panel, Scale, Stroke};
 
 /// Levels are of the order of 1: a few units in the last place, and what a random walk of
 /// roundings makes of them.
@@ -119,7 +119,7 @@ fn measure(
 ) -> Option<(Row, Growth)> {
     let mut levels = Levels {
         exact: exact(problem),
-        growth: Growth::new(),
+        growth: Growth::default(),
         transitions: 0,
         wanted: transitions,
         entered: false,

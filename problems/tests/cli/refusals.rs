@@ -30,7 +30,7 @@ fn senseless_values_are_refused() {
         ("--param", "k_above"),
         ("--param", "k_above=inf"),
         ("--initial", "x=one"),
-        ("--scheme", "euler"),
+        ("--scheme", "leapfrog"),
         ("--format", "gif"),
         ("--plane", "x"),
     ] {

@@ -26,6 +26,10 @@ pub trait OneStep: Clone + Sync {
     /// What is remembered from step to step within a segment.
     type Memory<const N: usize>: Clone + Debug;
 
+    /// Whether a step conserves ψ but for rounding errors. Where it does not, the correction of the
+    /// level is repeated until it does.
+    const CONSERVES: bool = true;
+
     /// The order p of accuracy.
     fn order(&self) -> usize;
 

@@ -3,8 +3,8 @@
 
 use super::crossing::Locator;
 use super::map::{OneStep, Step};
-use crate::arithmetic::Time;
 use crate::arithmetic::linear::is_finite;
+use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Vector};
 use crate::level::{Level, Weights};
 use crate::method::{Cursor, Failure, Sink, Statistics, StepFailure};
@@ -40,8 +40,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
     ) -> Result<(), Failure> {
         let mut state = self.cursor.state.after(increment);
         if self.corrects_level {
-            let weights = Weights::new(&state.x, increment);
-            state.remainder += level.correction(dynamics, time, &state, &weights);
+            restore::<Map, N, M, D>(dynamics, level, time, &mut state, increment);
         }
         let state = state.normalised();
         // neither the step nor the correction has left the range of doubles
@@ -76,5 +75,32 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
             self.sink.output(t, x);
         }
         Ok(())
+    }
+}
+
+/// Corrects a state that an increment led to towards the level.
+#[inline(always)]
+pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+    dynamics: &D,
+    level: &Level<N, M>,
+    time: Time,
+    state: &mut State<N>,
+    increment: &Vector<f64, N>,
+) {
+    /// Of truncation errors; each squares what is left.
+    const MOST_CORRECTIONS: u32 = 4;
+    let weights = Weights::new(&state.x, increment);
+    let mut displacement = level.correction(dynamics, time, state, &weights);
+    state.remainder += displacement;
+    if Map::CONSERVES {
+        return;
+    }
+    for _ in 1..MOST_CORRECTIONS {
+        if !weights.are_left_by(&displacement) {
+            break;
+        }
+        *state = state.normalised();
+        displacement = level.correction(dynamics, time, state, &weights);
+        state.remainder += displacement;
     }
 }

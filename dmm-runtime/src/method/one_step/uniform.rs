@@ -5,7 +5,7 @@ use super::grid::Grid;
 use super::map::{OneStep, Step};
 use super::resolution::Resolution;
 use super::search::{Dense, Watches, advance, is_near, readings, through_ends, watches};
-use super::segment::Segment;
+use super::segment::{Segment, restore};
 use super::watch::Watch;
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{State, Time};
@@ -13,7 +13,7 @@ use crate::contract::{Dynamics, Vector};
 use crate::error::{Error, invalid, number};
 use crate::events::Path;
 use crate::events::ends::Decay;
-use crate::level::{Level, Weights};
+use crate::level::Level;
 use crate::method::{Cursor, Ended, Failure, Method, Sink, Statistics, StepFailure};
 
 /// Steps between adaptions of the level's correction to the size of the state.
@@ -301,7 +301,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
             }
             if corrects {
                 next = if corrects_level {
-                    on_level(dynamics, level, (state, increment), (grid, node))
+                    on_level::<Map, N, M, D>(dynamics, level, (state, increment), (grid, node))
                 } else {
                     next.normalised()
                 };
@@ -424,7 +424,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
 
 /// The state after an increment, put back on its level.
 #[inline(never)]
-fn on_level<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+fn on_level<Map: OneStep, const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
     dynamics: &D,
     level: &mut Level<N, M>,
     (state, increment): (State<N>, Vector<f64, N>),
@@ -438,7 +438,6 @@ fn on_level<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
     }
     // into x at once: left in the remainder, which the flow does not turn, it would later be
     // taken off along a Λ that has turned away
-    let weights = Weights::new(&state.x, &increment);
-    state.remainder += level.correction(dynamics, Time::new(t), &state, &weights);
+    restore::<Map, N, M, D>(dynamics, level, Time::new(t), &mut state, &increment);
     state.normalised()
 }

@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
+use dmm_picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::method::{Control, MethodName};
-use dmm_problems::picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;
 use dmm_problems::registry;
 use dmm_problems::work_precision::{Goal, Setting, fastest};

@@ -3,10 +3,10 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use dmm_picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::convergence::{self, Plan, Row, Study, StudyError, norms};
 use dmm_problems::fit::fitted_order;
 use dmm_problems::method::{Control, MethodName};
-use dmm_problems::picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::problem::Problem;
 use dmm_problems::truth::Truth;
 use serde_json::{Value, json};

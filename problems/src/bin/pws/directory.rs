@@ -4,8 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use dmm_picture::{Format, Picture};
 use dmm_problems::method::Control;
-use dmm_problems::picture::{Format, Picture};
 use dmm_problems::problem::{Problem, Run};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};

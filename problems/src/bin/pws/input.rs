@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::ValueEnum;
-use dmm_problems::picture::Format;
+use dmm_picture::Format;
 use dmm_problems::problem::Problem;
 use dmm_problems::registry::{self, Unknown};
 use dmm_runtime::Model;

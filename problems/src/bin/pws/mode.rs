@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use dmm_problems::picture::{LIGHT_GREY, Look};
+use dmm_picture::{LIGHT_GREY, Look};
 use dmm_problems::problem::{AnyMode, Problem};
 use dmm_runtime::Side;
 

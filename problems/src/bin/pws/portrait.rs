@@ -3,7 +3,7 @@
 mod interfaces;
 mod marks;
 
-use dmm_problems::picture::{Axis, BREAK, Panel, Scale, Stroke};
+use dmm_picture::{Axis, BREAK, Panel, Scale, Stroke};
 use dmm_problems::problem::{Problem, Record};
 
 use crate::mode::{self, Modes};

@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use dmm_problems::picture::{Format, Picture};
+use dmm_picture::{Format, Picture};
 use dmm_problems::problem::{Problem, Run};
 use dmm_runtime::Statistics;
 use serde_json::json;

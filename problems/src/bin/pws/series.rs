@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use dmm_problems::picture::{Axis, BREAK, Look, Panel, Scale, Stroke, superscript};
+use dmm_picture::{Axis, BREAK, Look, Panel, Scale, Stroke, superscript};
 use dmm_problems::problem::Problem;
 
 use crate::mode;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::ops::ControlFlow;
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use dmm_problems::picture::Picture;
+use dmm_picture::Picture;
 use dmm_problems::stress::{Extent, Observe, Row, STUDIES, Study, Verdict};
 use serde_json::json;
 

@@ -3,8 +3,8 @@
 
 use std::ops::ControlFlow;
 
+use dmm_picture::Picture;
 use dmm_problems::method::MethodName;
-use dmm_problems::picture::Picture;
 use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 use dmm_problems::reference::Reference;
 
@@ -42,6 +42,8 @@ pub(super) fn figure(report: &mut Report, name: &str, number: u32) -> Result<(),
     for (short, long, method) in schemes {
         let run = Run {
             method,
+            // as the paper compares them
+            level_correction: method == MethodName::Symmetric,
             step_size: STEP_SIZE,
             t_end,
             ..problem.default_run()

@@ -1,9 +1,9 @@
 //! Figs 3, 4, 6 and 7: errors of crossing times and states against the step size.
 
+use dmm_picture::{Look, Panel, Picture, Stroke};
 use dmm_problems::convergence::{self, Plan, Study};
 use dmm_problems::method::MethodName;
 use dmm_problems::perturbed::Perturbed;
-use dmm_problems::picture::{Look, Panel, Picture, Stroke};
 use dmm_problems::problem::Problem;
 
 use super::report::Report;

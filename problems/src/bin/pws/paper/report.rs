@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dmm_problems::picture::Format;
+use dmm_picture::Format;
 
 use crate::directory::Directory;
 use crate::failure::Failure;

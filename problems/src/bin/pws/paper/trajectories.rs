@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use dmm_picture::Picture;
 use dmm_problems::method::MethodName;
-use dmm_problems::picture::Picture;
 use dmm_problems::problem::{AnyObserver, Problem, Record, Run};
 
 use super::report::{Report, SYSTEMS};

@@ -1,6 +1,6 @@
 //! Interfaces in a plane: zero sets of switching functions.
 
-use dmm_problems::picture::{GREY, Panel, Stroke};
+use dmm_picture::{GREY, Panel, Stroke};
 use dmm_problems::problem::Problem;
 
 use super::{Coordinate, Kept, Plane, bounds, place};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use dmm_problems::picture::{BREAK, GREY, Line, Look, Panel, Stroke};
+use dmm_picture::{BREAK, GREY, Line, Look, Panel, Stroke};
 use dmm_problems::problem::Crossed;
 use dmm_runtime::TransitionKind;
 

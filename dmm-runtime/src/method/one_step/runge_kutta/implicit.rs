@@ -1,0 +1,253 @@
+//! The stages of an implicit method: zᵢ = τ Σⱼ aᵢⱼ f(t₀ + cⱼτ, x₀ + zⱼ).
+//!
+//! Newton's method with one Jacobian J for all stages, (I − τA⊗J) Δz = r with the residual r, falls
+//! on the eigenvectors of A⁻¹ into systems of the size of the state, (I − τ/λₖ J) Δwₖ = (T⁻¹r)ₖ
+//! (Hairer & Wanner, Solving Ordinary Differential Equations II, eq. IV.8.4). The factors are kept
+//! as long as the step size is the same and the iteration is fast. Where it does not converge, all
+//! stages are solved for together with their own Jacobians and damping.
+
+use nalgebra::linalg::LU;
+use nalgebra::{Complex, DMatrix, DVector, Dyn};
+
+use super::super::map::Step;
+use super::stages::Stages;
+use super::tableau::Tableau;
+use crate::arithmetic::linear::is_finite;
+use crate::contract::{Dynamics, Vector};
+use crate::method::{Statistics, StepFailure};
+
+/// Iterations before an iteration is given up.
+const MOST_ITERATIONS: u64 = 60;
+/// Halvings of a damped correction before it is given up.
+const MOST_HALVINGS: u32 = 12;
+/// A correction that leaves less than this part of the stages is the last: half a rounding error.
+const CONVERGED: f64 = 0.5 * f64::EPSILON;
+/// Where a component of the stages passes through zero, its correction is measured against this
+/// part of the state.
+const SHARE_OF_STATE: f64 = 2.441_406_25e-4; // 2⁻¹²
+/// Corrections that fall off more slowly than this ask for another Jacobian.
+const SLOW: f64 = 0.25;
+/// Those that fall off faster keep it for the next step.
+const FAST: f64 = 0.03;
+/// Corrections by a Jacobian at the solution that do not fall off, and are below this part of the
+/// state, are rounding errors.
+const ROUNDING: f64 = 1e-10;
+
+/// The matrices I − τ/λₖ J of a step size, factored.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Prepared {
+    tau: f64,
+    by_eigenvalue: Vec<LU<Complex<f64>, Dyn, Dyn>>,
+    work: DVector<Complex<f64>>,
+}
+
+impl Prepared {
+    /// With the Jacobian in the middle of `stages`; nothing if a matrix is singular.
+    fn factor<F, const N: usize, const M: usize>(
+        &mut self,
+        tableau: &Tableau,
+        step: &Step<'_, F, N>,
+        stages: &Stages<N>,
+    ) -> Option<()>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        let share = 1.0 / tableau.stages() as f64;
+        let middle = stages
+            .0
+            .iter()
+            .fold(Vector::zeros(), |sum, z| sum + z * share);
+        let time = tableau.c.iter().sum::<f64>() * share * step.tau + step.t0;
+        let jacobian = step.dynamics.jacobian(time, &(step.x0 + middle));
+        let matrix = |value: Complex<f64>| {
+            let factor = -step.tau / value;
+            let entry = |i, j| factor * jacobian[(i, j)] + f64::from(u8::from(i == j));
+            DMatrix::from_fn(N, N, entry).lu()
+        };
+        let eigen = tableau.transform().eigen.iter();
+        self.by_eigenvalue = eigen.map(|eigen| matrix(eigen.value)).collect();
+        self.tau = step.tau;
+        self.work = DVector::zeros(N);
+        let regular = self.by_eigenvalue.iter().all(LU::is_invertible);
+        regular.then_some(())
+    }
+
+    /// (I − τA⊗J)⁻¹ r
+    fn solve<const N: usize>(&mut self, tableau: &Tableau, residual: &Stages<N>) -> Stages<N> {
+        let mut solution = Stages::each(tableau, |_| Vector::zeros());
+        for (eigen, lu) in tableau.transform().eigen.iter().zip(&self.by_eigenvalue) {
+            self.work.fill(Complex::default());
+            for (&weight, stage) in eigen.row.iter().zip(&residual.0) {
+                for (entry, &value) in self.work.iter_mut().zip(stage) {
+                    *entry += weight * value;
+                }
+            }
+            // regular, or it would not have been kept
+            lu.solve_mut(&mut self.work);
+            for (&weight, stage) in eigen.vector.iter().zip(&mut solution.0) {
+                let part = |k: usize| (weight * self.work[k]).re;
+                *stage += Vector::from_fn(|k, _| part(k));
+            }
+        }
+        solution
+    }
+
+    /// Asks for another Jacobian in the next step.
+    fn forget(&mut self) {
+        self.by_eigenvalue.clear();
+    }
+
+    fn fits(&self, tau: f64) -> bool {
+        self.tau == tau && !self.by_eigenvalue.is_empty()
+    }
+}
+
+impl<F, const N: usize> Step<'_, F, N> {
+    /// The stages of an implicit method, from predicted ones.
+    pub(super) fn stages<const M: usize>(
+        &self,
+        tableau: &Tableau,
+        predicted: Stages<N>,
+        prepared: &mut Prepared,
+        statistics: &mut Statistics,
+    ) -> Result<Stages<N>, StepFailure>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        match self.iterate(tableau, predicted, prepared, statistics) {
+            Some(stages) => Ok(stages),
+            None => {
+                prepared.forget();
+                self.damped(tableau, statistics)
+            }
+        }
+    }
+
+    /// Newton's method with one Jacobian for all stages.
+    fn iterate<const M: usize>(
+        &self,
+        tableau: &Tableau,
+        mut stages: Stages<N>,
+        prepared: &mut Prepared,
+        statistics: &mut Statistics,
+    ) -> Option<Stages<N>>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        let mut is_new = !prepared.fits(self.tau);
+        if is_new {
+            prepared.factor(tableau, self, &stages)?;
+        }
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST_ITERATIONS {
+            let residual = stages.residual(tableau, self);
+            statistics.newton_iterations += 1;
+            let correction = prepared.solve(tableau, &residual);
+            stages.add(&correction);
+            let scale = stages.sizes() + self.x0.abs() * SHARE_OF_STATE;
+            let size = correction.relative(&scale);
+            let rate = size / before;
+            // the corrections that follow add up to size·rate/(1 − rate)
+            if size * rate <= CONVERGED * (1.0 - rate) || size <= CONVERGED {
+                if rate > FAST && before < f64::INFINITY {
+                    prepared.forget();
+                }
+                return Some(stages);
+            }
+            if !size.is_finite() {
+                return None;
+            }
+            if rate > SLOW {
+                let state = stages.sizes() + self.x0.abs();
+                if is_new && correction.relative(&state) <= ROUNDING {
+                    return Some(stages);
+                }
+                if is_new && rate > 1.0 {
+                    return None;
+                }
+                prepared.factor(tableau, self, &stages)?;
+                is_new = true;
+                before = f64::INFINITY;
+                continue;
+            }
+            before = size;
+        }
+        None
+    }
+
+    /// Newton's method for all stages together, with halved corrections until the residual falls,
+    /// from the start of the step.
+    #[cold]
+    fn damped<const M: usize>(
+        &self,
+        tableau: &Tableau,
+        statistics: &mut Statistics,
+    ) -> Result<Stages<N>, StepFailure>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        let mut stages = Stages::on_tangent(tableau, self);
+        let mut residual = stages.residual(tableau, self);
+        let mut iterations = 0;
+        while iterations < MOST_ITERATIONS {
+            iterations += 1;
+            statistics.newton_iterations += 1;
+            if !residual.0.iter().all(is_finite) {
+                return Err(StepFailure::NotFinite);
+            }
+            let Some(correction) = self.correction_of_all(tableau, &stages, &residual) else {
+                break;
+            };
+            let state = stages.sizes() + self.x0.abs();
+            let size = correction.relative(&(stages.sizes() + self.x0.abs() * SHARE_OF_STATE));
+            let norm = residual.relative(&state);
+            let mut share = 1.0;
+            let accepted = (0..MOST_HALVINGS).find_map(|_| {
+                let mut trial = stages;
+                trial.add(&Stages::each(tableau, |i| correction.0[i] * share));
+                share *= 0.5;
+                let residual = trial.residual(tableau, self);
+                (residual.relative(&state) < norm).then_some((trial, residual))
+            });
+            match accepted {
+                // the next one would be of the order of its square
+                Some((trial, _)) if size * size <= CONVERGED && share == 0.5 => return Ok(trial),
+                Some((trial, next)) => (stages, residual) = (trial, next),
+                None if correction.relative(&state) <= ROUNDING => return Ok(stages),
+                None => break,
+            }
+        }
+        let sizes = residual.sizes();
+        Err(StepFailure::NoConvergence {
+            residual: sizes.amax(),
+            iterations,
+        })
+    }
+
+    /// (I − τ aᵢⱼ Jⱼ)⁻¹ r with the Jacobian of each stage.
+    fn correction_of_all<const M: usize>(
+        &self,
+        tableau: &Tableau,
+        stages: &Stages<N>,
+        residual: &Stages<N>,
+    ) -> Option<Stages<N>>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        let size = tableau.stages() * N;
+        let mut matrix = DMatrix::identity(size, size);
+        for (j, &c) in tableau.c.iter().enumerate() {
+            let t = self.t0 + c * self.tau;
+            let jacobian = self.dynamics.jacobian(t, &(self.x0 + stages.0[j]));
+            for (i, row) in tableau.a.iter().enumerate() {
+                let mut block = matrix.view_mut((i * N, j * N), (N, N));
+                block -= jacobian * (self.tau * row[j]);
+            }
+        }
+        let right = DVector::from_fn(size, |k, _| residual.0[k / N][k % N]);
+        let solution = matrix.lu().solve(&right)?;
+        Some(Stages::each(tableau, |i| {
+            Vector::from_fn(|k, _| solution[i * N + k])
+        }))
+    }
+}
