@@ -237,6 +237,12 @@ pub enum ErrorKind {
         /// Transitions that are kept.
         transitions: usize,
     },
+    /// The solution has no derivative by its initial state or by a parameter.
+    #[error("there is no derivative by the initial state and the parameters: {reason}")]
+    NoDerivative {
+        /// Why.
+        reason: &'static str,
+    },
     /// An output was asked for at a time that was not integrated.
     #[error("no solution at t = {t}: it is known from {from} to {to}")]
     OutOfRange {

@@ -168,6 +168,7 @@ mod method;
 mod model;
 mod output;
 pub mod rules;
+mod sensitivity;
 pub mod series;
 pub mod special;
 #[doc(hidden)]
@@ -189,7 +190,7 @@ pub use method::one_step::{
     OneStep, RungeKutta, Step, SubSteps, Symmetric, Uniform,
 };
 pub use method::taylor::Taylor;
-pub use method::{Method, Statistics, StepFailure};
+pub use method::{Method, Statistics, StepFailure, Variation};
 #[cfg(feature = "model")]
 pub use model::{Model, ModelError, ModelVisitor};
 /// The vectors and matrices of states: [`Vector`] and [`Matrix`] are its.
@@ -198,3 +199,4 @@ pub use output::{
     End, EndedBy, Halted, Interrupted, IntoControlFlow, Observer, OnPoint, OnTransition, Point,
     Progress, Solution, Transition, TransitionKind, on_point, on_transition, progress,
 };
+pub use sensitivity::{Sensitivities, Sensitivity, TransitionSensitivity};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 19] = [
+const LAYERS: [&str; 20] = [
     "error",
     "arithmetic",
     "special",
@@ -17,6 +17,7 @@ const LAYERS: [&str; 19] = [
     "method",
     "output",
     "driver",
+    "sensitivity",
     "ensemble",
     "dynamic",
     "model",

@@ -2,6 +2,7 @@
 //! linear systems of a step.
 
 pub(crate) mod double;
+pub(crate) mod dual;
 pub(crate) mod error_free;
 pub(crate) mod lanes;
 pub(crate) mod linear;

@@ -98,11 +98,31 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// condition of it does not hold.
     fn jump(
         &self,
+        region: Self::Region,
+        event: usize,
+        t: f64,
+        state: &Vector<f64, N>,
+    ) -> Option<(Vector<f64, N>, Self::Region)> {
+        let parameters = self.parameters();
+        let (state, discrete) =
+            self.jump_with(region, event, t, state, |index| parameters[index])?;
+        let values = discrete.into_iter().enumerate();
+        let mode = values.fold(region, |mode, (index, value)| {
+            Self::with_constant(mode, index, value)
+        });
+        Some((state, mode))
+    }
+
+    /// The states and the discrete states after event number `event`, with a state and parameters of
+    /// any scalar; see [`System::visit_with`].
+    fn jump_with<S: Scalar>(
+        &self,
         _region: Self::Region,
         _event: usize,
-        _t: f64,
-        _state: &Vector<f64, N>,
-    ) -> Option<(Vector<f64, N>, Self::Region)> {
+        _t: S,
+        _state: &Vector<S, N>,
+        _parameter: impl Fn(usize) -> S,
+    ) -> Option<(Vector<S, N>, Vec<S>)> {
         None
     }
 

@@ -23,15 +23,8 @@ pub(super) fn happens<Sys: System<N>, const N: usize>(
     state: &State<N>,
 ) -> Result<Option<Happened<Sys::Region, N>>, Error> {
     let x = &state.x;
-    let happens = |event: &Event| {
-        let is_here = event.region.is_none_or(|region| region == Sys::index(from));
-        is_here && on.contains(&event.interface) && is_crossed(system, from, met, event, t, x)
-    };
     let mut happened: Option<Happened<Sys::Region, N>> = None;
-    for (index, event) in system.metadata().events.iter().enumerate() {
-        if !happens(event) {
-            continue;
-        }
+    for index in happening(system, from, met, on, t, x) {
         let Some((after, mode)) = system.jump(from, index, t, x) else {
             continue;
         };
@@ -66,6 +59,24 @@ pub(super) fn happens<Sys: System<N>, const N: usize>(
         }
     }
     Ok(happened)
+}
+
+/// The events at a point of the interfaces `on`, one of which was `met` with a rate, whatever their
+/// conditions are.
+pub(crate) fn happening<'a, Sys: System<N>, const N: usize>(
+    system: &'a Sys,
+    from: Sys::Region,
+    met: (usize, f64),
+    on: &'a [usize],
+    t: f64,
+    x: &'a Vector<f64, N>,
+) -> impl Iterator<Item = usize> + 'a {
+    let happens = move |event: &Event| {
+        let is_here = event.region.is_none_or(|region| region == Sys::index(from));
+        is_here && on.contains(&event.interface) && is_crossed(system, from, met, event, t, x)
+    };
+    let events = system.metadata().events.iter().enumerate();
+    events.filter_map(move |(index, event)| happens(event).then_some(index))
 }
 
 /// Whether another event has given something a value other than `after`.

@@ -21,6 +21,7 @@ mod start;
 mod stepper;
 
 pub(crate) use accumulation::Accumulation;
+pub(crate) use events::happening;
 pub use integrator::{InitialValueProblem, Integrator};
 pub(crate) use next::enter;
 pub use recording::Recording;

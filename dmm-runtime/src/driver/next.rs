@@ -71,6 +71,7 @@ pub(crate) fn enter<Sys: System<N>, const N: usize>(
             None => kind(system, from, to),
         },
         interface,
+        guard,
         from,
         to,
         rate_from,

@@ -2,7 +2,8 @@
 
 use super::exact::{self, is_exact, is_exact_type};
 use super::taylor::{self, Taylor};
-use super::{Cursor, Ended, Failure, Method, Sink};
+use super::{Cursor, Ended, Failure, Method, Sink, Variation};
+use crate::arithmetic::{Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::error::Error;
 
@@ -147,5 +148,16 @@ impl Method for Best {
         } else {
             self.taylor.reach(&memory.taylor, dynamics, cursor, to)
         }
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        step.flow::<M>()
     }
 }

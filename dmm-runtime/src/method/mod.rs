@@ -12,15 +12,18 @@ pub(crate) mod one_step;
 mod sink;
 mod statistics;
 pub(crate) mod taylor;
+mod variation;
 
 pub(crate) use cursor::{Active, Cursor, Several};
 pub use failure::StepFailure;
 pub(crate) use failure::{Failure, FailureKind};
 pub(crate) use sink::{Listener, Observed, Silent, Sink};
 pub use statistics::Statistics;
+pub use variation::Variation;
 
 use std::fmt::Debug;
 
+use crate::arithmetic::{Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::error::{Error, invalid, number};
 
@@ -78,6 +81,16 @@ pub trait Method: Clone + Sync {
     ) -> Result<(), Failure>
     where
         D: Dynamics<f64, N, M>;
+
+    /// The increment of a step over dual numbers, whose derivatives are those of the step; nothing if
+    /// there are none.
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar;
 }
 
 /// The settings of Taylor's method in lanes.

@@ -53,6 +53,9 @@ pub struct Transition<R, const N: usize> {
     pub remainder: Vector<f64, N>,
     /// Index of the interface in [`Metadata::interfaces`](crate::Metadata::interfaces).
     pub interface: usize,
+    /// Index of the guard that was met, see [`Metadata::guard_name`](crate::Metadata::guard_name): the
+    /// interface, or the end of a sliding motion on it.
+    pub guard: usize,
     /// The region that is left; of a system with events its [`Mode`](crate::Mode), which has the
     /// discrete states before.
     pub from: R,

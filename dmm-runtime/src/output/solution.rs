@@ -40,6 +40,11 @@ impl<Sys: System<N>, Met: Method, const N: usize> Solution<Sys, Met, N> {
         &self.system
     }
 
+    /// The method that it was integrated by.
+    pub fn method(&self) -> &Met {
+        &self.method
+    }
+
     /// The points, in the order of time: ends of steps or the times asked for. A transition
     /// appears twice, with the region that is left and with the region that is entered.
     pub fn points(&self) -> &[Point<Sys::Region, N>] {

@@ -158,7 +158,12 @@ impl<const N: usize, const M: usize> Tape<N, M> {
 
 impl<const N: usize, const M: usize> Tape<N, M> {
     /// Parameter number `index` or, behind the parameters, what is constant in a mode.
-    fn constant(&self, mode: TapeMode, index: usize) -> f64 {
+    fn parameter<S: Scalar>(
+        &self,
+        mode: TapeMode,
+        index: usize,
+        parameter: impl Fn(usize) -> S,
+    ) -> S {
         let behind = |place: usize| {
             let Metadata { discrete, free, .. } = self.code.metadata;
             let place = match place.checked_sub(discrete.len()) {
@@ -168,8 +173,10 @@ impl<const N: usize, const M: usize> Tape<N, M> {
             };
             mode.constant(place)
         };
-        let parameter = self.parameters.get(index).copied();
-        parameter.unwrap_or_else(|| behind(index - self.parameters.len()))
+        match index.checked_sub(self.parameters.len()) {
+            None => parameter(index),
+            Some(place) => S::from_f64(behind(place)),
+        }
     }
 }
 
@@ -227,33 +234,32 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
         region.with_constant(index, value)
     }
 
-    fn jump(
+    fn jump_with<S: Scalar>(
         &self,
         region: TapeMode,
         event: usize,
-        t: f64,
-        state: &Vector<f64, N>,
-    ) -> Option<(Vector<f64, N>, TapeMode)> {
+        t: S,
+        state: &Vector<S, N>,
+        parameter: impl Fn(usize) -> S,
+    ) -> Option<(Vector<S, N>, Vec<S>)> {
         let events = self.code.events.as_ref()?;
         let routine = events.code.get(Quantity::Event(event))?;
         let Values::Column(column) = &routine.results else {
             return None;
         };
-        let mut registers = events.code.registers(|index| self.constant(region, index));
+        let parameter = |index| self.parameter(region, index, &parameter);
+        let mut registers = events.code.registers(parameter);
         routine.first.run_at(&mut registers, t, state);
         let values = column.iter().map(|&register| registers[register as usize]);
-        let values: Vec<f64> = values.collect();
+        let values: Vec<S> = values.collect();
         let (conditions, values) = values.split_at_checked(*events.conditions.get(event)?)?;
-        if !conditions.iter().all(|&condition| condition > 0.0) {
+        if !conditions.iter().all(|&condition| condition.to_f64() > 0.0) {
             return None;
         }
         let (states, discrete) = values.split_at_checked(self.code.metadata.states.len())?;
-        let mut mode = region;
-        for (own, &value) in mode.discrete.iter_mut().zip(discrete) {
-            *own = value;
-        }
-        let state = |index: usize| states.get(index).copied().unwrap_or(0.0);
-        Some((Vector::from_fn(|index, _| state(index)), mode))
+        let state = |index: usize| states.get(index).copied().unwrap_or(S::from_f64(0.0));
+        let state = Vector::from_fn(|index, _| state(index));
+        Some((state, discrete.to_vec()))
     }
 
     fn parameters(&self) -> Vec<f64> {
@@ -276,13 +282,7 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
     ) -> V::Output {
         let known = self.code.regions.len();
         let region = &self.code.regions[mode.region.0.min(known - 1)];
-        let parameter = |index: usize| {
-            if index < self.parameters.len() {
-                parameter(index)
-            } else {
-                S::from_f64(self.constant(mode, index))
-            }
-        };
+        let parameter = |index| self.parameter(mode, index, &parameter);
         visitor.visit(&TapeDynamics::<S, N, M>::new(region, parameter))
     }
 }

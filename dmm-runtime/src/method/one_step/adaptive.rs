@@ -6,14 +6,14 @@ use super::search::{Dense, watches};
 use super::segment::Segment;
 use super::step_size::{COEFFICIENTS, Expansion, StepSizeControl};
 use crate::arithmetic::linear::is_finite;
-use crate::arithmetic::{State, Time};
+use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, Vector};
 use crate::error::Error;
 use crate::events::Path;
 use crate::events::ends::Decay;
 use crate::level::Level;
 use crate::method::{
-    Cursor, Ended, Failure, Method, Sink, Statistics, StepFailure, check_tolerance,
+    Cursor, Ended, Failure, Method, Sink, Statistics, StepFailure, Variation, check_tolerance,
 };
 
 /// A step is too long if at its end steps this many times shorter are asked for.
@@ -271,6 +271,17 @@ impl<Map: OneStep, Loc: Locator> Method for Adaptive<Map, Loc> {
             (cursor.time, cursor.state) = (Time::new(t), State::new(x));
         }
         Ok(())
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        self.map.differentiate::<D, S, N, M>(step)
     }
 }
 

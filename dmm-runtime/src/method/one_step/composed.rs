@@ -6,9 +6,10 @@ use super::history::History;
 use super::map::{Correction, OneStep, Step};
 use super::propagator::{Propagator, propagate};
 use super::uniform::Uniform;
+use crate::arithmetic::Scalar;
 use crate::contract::{Dynamics, Solvability, Vector};
 use crate::method::Statistics;
-use crate::method::StepFailure;
+use crate::method::{StepFailure, Variation};
 
 /// The symmetric scheme of order 2 composed with itself to the order 4, 6 or 8: sub-steps
 ///
@@ -305,5 +306,16 @@ impl OneStep for SubSteps {
             delta: solved.ok()? - increment,
             velocity,
         })
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        step.composed::<M>(self.weights)
     }
 }

@@ -160,6 +160,8 @@ pub struct NewtonLocator;
 
 impl NewtonLocator {
     const LARGEST_ITERATIONS: u32 = 12;
+    /// With an approximate velocity: the iteration converges linearly.
+    const LARGEST_LINEAR: u32 = 40;
     const LARGEST_BISECTIONS: u32 = 200;
     /// A correction of time smaller than this part of the step is the last.
     const CONVERGED: f64 = 1e-9;
@@ -180,7 +182,13 @@ impl NewtonLocator {
         let part = elapsed / crossing.upper;
         let mut increment =
             velocity * elapsed + (upper - velocity * crossing.upper) * (part * part);
-        for _ in 0..Self::LARGEST_ITERATIONS {
+        let iterations = if Map::EXACT_VELOCITY {
+            Self::LARGEST_ITERATIONS
+        } else {
+            Self::LARGEST_LINEAR
+        };
+        let mut before = f64::INFINITY;
+        for _ in 0..iterations {
             statistics.locator_iterations += 1;
             let step = crossing.part(elapsed);
             let correction = crossing.map.correction(&step, &increment)?;
@@ -194,7 +202,11 @@ impl NewtonLocator {
                 return None;
             }
             let settled = correction.delta.amax() <= Self::CONVERGED * increment.amax();
-            if delta.abs() <= slack && settled {
+            let is_last = Map::EXACT_VELOCITY
+                || delta.abs() <= f64::EPSILON * elapsed.abs()
+                || delta.abs() >= before;
+            before = delta.abs();
+            if delta.abs() <= slack && settled && is_last {
                 // a root at which g rises is the end of an excursion, not its beginning
                 return (slope < 0.0 && elapsed >= 0.0).then_some(Located { elapsed, increment });
             }

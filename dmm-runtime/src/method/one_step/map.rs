@@ -2,8 +2,9 @@
 
 use std::fmt::Debug;
 
+use crate::arithmetic::Scalar;
 use crate::contract::{Dynamics, Vector};
-use crate::method::{Statistics, StepFailure};
+use crate::method::{Statistics, StepFailure, Variation};
 
 /// A step to be made.
 #[derive(Debug)]
@@ -29,6 +30,10 @@ pub trait OneStep: Clone + Sync {
     /// Whether a step conserves ψ but for rounding errors. Where it does not, the correction of the
     /// level is repeated until it does.
     const CONSERVES: bool = true;
+
+    /// Whether the velocity of [`OneStep::correction`] is exact, so that Newton's method for a crossing
+    /// converges quadratically. Where it is that of a close map, the iteration goes on to rounding.
+    const EXACT_VELOCITY: bool = true;
 
     /// The order p of accuracy.
     fn order(&self) -> usize;
@@ -86,6 +91,20 @@ pub trait OneStep: Clone + Sync {
         step: &Step<'_, F, N>,
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure>;
+
+    /// The increment of a step over dual numbers, whose derivatives are those of the step (by
+    /// default of the flow); nothing if
+    /// there are none.
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        step.flow::<M>()
+    }
 
     /// One Newton correction of an approximate increment d of a step, and the velocity ∂d/∂τ
     /// of the one-step map there: what Newton's method in (τ, d) is made of.

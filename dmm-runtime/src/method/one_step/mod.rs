@@ -24,6 +24,7 @@ mod step_size;
 mod sweep;
 mod symmetric;
 mod uniform;
+mod variation;
 mod watch;
 
 pub use adaptive::Adaptive;

@@ -6,10 +6,11 @@ use super::map::{Correction, OneStep, Step};
 use super::propagator::{Propagator, propagate};
 use super::sweep::{MOST, Sweeps};
 use super::uniform::Uniform;
+use crate::arithmetic::Scalar;
 use crate::arithmetic::linear::solve;
 use crate::contract::{Dynamics, Solvability, Vector};
 use crate::method::Statistics;
-use crate::method::StepFailure;
+use crate::method::{StepFailure, Variation};
 
 /// The discrete multiplier scheme
 ///
@@ -270,5 +271,16 @@ impl OneStep for Symmetric {
         increment: &Vector<f64, N>,
     ) -> Option<Correction<N>> {
         step.correction::<M>(increment)
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        step.symmetric::<M>()
     }
 }

@@ -8,13 +8,13 @@ use super::search::{Dense, Watches, advance, is_near, readings, through_ends, wa
 use super::segment::{Segment, restore};
 use super::watch::Watch;
 use crate::arithmetic::linear::is_finite;
-use crate::arithmetic::{State, Time};
+use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, Vector};
 use crate::error::{Error, invalid, number};
 use crate::events::Path;
 use crate::events::ends::Decay;
 use crate::level::Level;
-use crate::method::{Cursor, Ended, Failure, Method, Sink, Statistics, StepFailure};
+use crate::method::{Cursor, Ended, Failure, Method, Sink, Statistics, StepFailure, Variation};
 
 /// Steps between adaptions of the level's correction to the size of the state.
 const RESCALING: u64 = 256;
@@ -204,6 +204,17 @@ impl<Map: OneStep, Loc: Locator> Method for Uniform<Map, Loc> {
             (cursor.time, cursor.state) = (Time::new(t), State::new(x));
         }
         Ok(())
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        self.map.differentiate::<D, S, N, M>(step)
     }
 }
 

@@ -8,7 +8,8 @@ mod steps;
 
 pub(crate) use steps::{RESCALING, step_to};
 
-use super::{Cursor, Ended, Failure, InLanes, Method, Sink, check_tolerance};
+use super::{Cursor, Ended, Failure, InLanes, Method, Sink, Variation, check_tolerance};
+use crate::arithmetic::{Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::error::Error;
 use crate::events::ends::Decay;
@@ -190,5 +191,16 @@ impl Method for Taylor {
             unit: memory.unit,
         };
         D::Unrolled::choose(self.order(), reach)
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        step.flow::<M>()
     }
 }

@@ -168,23 +168,28 @@ impl Constants {
         let initial = program.initial.iter().map(default_value);
         let states = paths::count(program.states.len());
         let [discrete, free] = [discrete, free].map(paths::count);
-        let fields = program.scheme.model.parameters.iter().map(field);
         let parameters: Vec<TokenStream> = constants
             .map(|index| quote!(region.constant(#index)))
             .collect();
         let all = quote!(#(#parameters),*);
+        let (bound, scalar) = (paths::support("Scalar"), &emission.scalar);
+        let indices: Vec<_> = (0..program.scheme.model.parameters.len())
+            .map(paths::count)
+            .collect();
         let jump = emission.events.as_ref().map(|events| {
-                quote! {
-                fn jump(
+            quote! {
+                fn jump_with<#scalar: #bound>(
                     &self,
                     region: Self::Region,
                     event: usize,
-                    t: f64,
-                    state: &#vector<f64, #states>,
-                ) -> ::core::option::Option<(#vector<f64, #states>, Self::Region)> {
-                    let parameters = [#(self.#fields,)* #(#parameters),*];
-                    let (state, discrete) = #events::<f64>::new(&parameters).after(event, t, state)?;
-                    ::core::option::Option::Some((state, #mode { discrete, ..region }))
+                    t: #scalar,
+                    state: &#vector<#scalar, #states>,
+                    parameter: impl ::core::ops::Fn(usize) -> #scalar,
+                ) -> ::core::option::Option<(#vector<#scalar, #states>, ::std::vec::Vec<#scalar>)> {
+                    let parameters =
+                        [#(parameter(#indices),)* #(#scalar::from_f64(#parameters)),*];
+                    let (state, discrete) = #events::<#scalar>::new(&parameters).after(event, t, state)?;
+                    ::core::option::Option::Some((state, discrete.to_vec()))
                 }
             }
         });

@@ -148,8 +148,9 @@ impl<F, const N: usize> Step<'_, F, N> {
             let size = correction.relative(&scale);
             let rate = size / before;
             // the corrections that follow add up to size·rate/(1 − rate)
-            if size * rate <= CONVERGED * (1.0 - rate) || size <= CONVERGED {
-                if rate > FAST && before < f64::INFINITY {
+            let is_known = before < f64::INFINITY;
+            if size <= CONVERGED || is_known && size * rate <= CONVERGED * (1.0 - rate) {
+                if is_known && rate > FAST {
                     prepared.forget();
                 }
                 return Some(stages);
@@ -224,13 +225,30 @@ impl<F, const N: usize> Step<'_, F, N> {
         })
     }
 
-    /// (I − τ aᵢⱼ Jⱼ)⁻¹ r with the Jacobian of each stage.
+    /// (I − τ aᵢⱼ Jⱼ)⁻¹ r
     fn correction_of_all<const M: usize>(
         &self,
         tableau: &Tableau,
         stages: &Stages<N>,
         residual: &Stages<N>,
     ) -> Option<Stages<N>>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        let matrix = self.matrix_of_all(tableau, stages);
+        let size = matrix.nrows();
+        let right = DVector::from_fn(size, |k, _| residual.0[k / N][k % N]);
+        let solution = matrix.lu().solve(&right)?;
+        Some(Stages::each(tableau, |i| {
+            Vector::from_fn(|k, _| solution[i * N + k])
+        }))
+    }
+    /// I − τ aᵢⱼ Jⱼ, with the Jacobian of each stage.
+    pub(super) fn matrix_of_all<const M: usize>(
+        &self,
+        tableau: &Tableau,
+        stages: &Stages<N>,
+    ) -> DMatrix<f64>
     where
         F: Dynamics<f64, N, M>,
     {
@@ -244,10 +262,6 @@ impl<F, const N: usize> Step<'_, F, N> {
                 block -= jacobian * (self.tau * row[j]);
             }
         }
-        let right = DVector::from_fn(size, |k, _| residual.0[k / N][k % N]);
-        let solution = matrix.lu().solve(&right)?;
-        Some(Stages::each(tableau, |i| {
-            Vector::from_fn(|k, _| solution[i * N + k])
-        }))
+        matrix
     }
 }

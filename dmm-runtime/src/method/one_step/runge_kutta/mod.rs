@@ -5,12 +5,14 @@ mod stages;
 mod tableau;
 mod tableaux;
 mod transform;
+mod variation;
 
 use super::map::{Correction, OneStep, Step};
 use super::uniform::Uniform;
+use crate::arithmetic::Scalar;
 use crate::arithmetic::linear::is_finite;
 use crate::contract::{Dynamics, Vector};
-use crate::method::{Statistics, StepFailure};
+use crate::method::{Statistics, StepFailure, Variation};
 use implicit::Prepared;
 use stages::Stages;
 use tableau::Tableau;
@@ -186,6 +188,7 @@ impl OneStep for RungeKutta {
     type Memory<const N: usize> = Memory<N>;
 
     const CONSERVES: bool = false;
+    const EXACT_VELOCITY: bool = false;
 
     fn order(&self) -> usize {
         self.tableau.order
@@ -265,6 +268,17 @@ impl OneStep for RungeKutta {
             delta: solved - increment,
             velocity: (step.dynamics).vector_field(step.t0 + step.tau, &(step.x0 + solved)),
         })
+    }
+
+    fn differentiate<D, S, const N: usize, const M: usize>(
+        &self,
+        step: &Variation<'_, D, S, N>,
+    ) -> Option<Vector<S, N>>
+    where
+        D: Dynamics<S, N, M>,
+        S: Scalar,
+    {
+        step.runge_kutta::<M>(self.tableau)
     }
 }
 
