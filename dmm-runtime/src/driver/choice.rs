@@ -146,12 +146,23 @@ impl<Sys: System<N>, const N: usize> Around<'_, Sys, N> {
         changes(one, other) || changes(other, one)
     }
 
-    /// The interfaces of the point that bound a mode.
+    /// The guards of a mode that stand for the interfaces of the point.
     fn active(&self, mode: Sys::Region) -> Active {
         let bounds = |&&interface: &&usize| self.system.side(mode, interface).is_some();
         let mut active = Active::default();
-        let on = self.on.iter().filter(bounds);
-        on.for_each(|&interface| active.insert(interface));
+        for &interface in self.on.iter().filter(bounds) {
+            let region = self.system.of_region(mode);
+            if !region.may_slide.contains(&interface) {
+                active.insert(interface);
+                continue;
+            }
+            // a motion that may slide on a switch has a guard of its own for it
+            let metadata = self.system.metadata();
+            let guards = metadata.interfaces.len()..;
+            let ends = guards.zip(metadata.ends);
+            let own = ends.filter(|(_, end)| end.interface == interface && end.side.is_none());
+            own.for_each(|(guard, _)| active.insert(guard));
+        }
         active
     }
 }

@@ -2,7 +2,7 @@
 //! motion keeps to it. Where the rate that decides is zero at the point, it is looked at a short time
 //! later.
 
-use crate::flow::flow;
+use crate::flow::{SHORTEST, checked_flow};
 use crate::motion::{Choice, Guard, Mode, Motion, Systems};
 use crate::plant::State;
 
@@ -74,9 +74,17 @@ pub(crate) fn decide(
         } else if margin < -CLEAR {
             false
         } else if margin.abs() < ZERO {
-            let later = flow(systems, &motion, t, x, LATER);
-            let margin = self::margin(systems, &motion, on, t + LATER, &later);
-            if margin.is_nan() || margin.abs() < CHANGE * LATER {
+            let mut step = LATER;
+            let (mut later, mut agrees) = checked_flow(systems, &motion, t, x, step);
+            while step > SHORTEST && !agrees {
+                step *= 0.5;
+                (later, agrees) = checked_flow(systems, &motion, t, x, step);
+            }
+            if !agrees {
+                return Err(Stop::Undecided("a weight has a pole"));
+            }
+            let margin = self::margin(systems, &motion, on, t + step, &later);
+            if margin.is_nan() || margin.abs() < CHANGE * step {
                 return Err(Stop::Undecided("a rate is zero and hardly changes"));
             }
             margin > 0.0

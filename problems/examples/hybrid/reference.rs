@@ -2,7 +2,7 @@
 //! bisection of the length of a step, what happens there, and the next mode.
 
 use crate::decide::{Stop, decide};
-use crate::flow::flow;
+use crate::flow::{SHORTEST, checked_flow, flow};
 use crate::motion::{Choice, Guard, Motion, Systems};
 use crate::plant::{Jump, State, value};
 
@@ -12,9 +12,8 @@ const TOUCH: f64 = 1e-6;
 const ON: f64 = 1e-11;
 /// States beyond this size are not followed.
 const FAR: f64 = 20.0;
-/// The most that a weight may change in a step, unless the step is so short.
+/// The most that a weight may change in a step, unless it is one of the shortest.
 const MOST_CHANGE: f64 = 0.1;
-const SHORTEST: f64 = 1e-7;
 /// The time between the points at which a derivative is taken.
 const SMALL: f64 = 1e-5;
 
@@ -85,20 +84,21 @@ fn run(systems: &Systems<'_>, setting: Setting, solution: &mut Solution) -> Resu
         let tick = clock.map_or(f64::INFINITY, |(period, _)| ticks * systems.c[*period]);
         let until = setting.t_end.min(tick);
         let mut step = setting.step.min(until - t);
-        let mut after = flow(systems, &motion, t, &x, step);
+        let (mut after, mut agrees) = checked_flow(systems, &motion, t, &x, step);
         // weights have poles, near which they change fast, and beyond which the fields lead away
         let passes_pole = |later: f64, after: &State| {
             let changes = systems.change(&motion, (t, &x), (later, after)) > MOST_CHANGE;
             changes || systems.is_repelling(&motion, later, after)
         };
-        while step > SHORTEST && passes_pole(t + step, &after) {
+        while step > SHORTEST && (!agrees || passes_pole(t + step, &after)) {
             step *= 0.5;
-            after = flow(systems, &motion, t, &x, step);
+            (after, agrees) = checked_flow(systems, &motion, t, &x, step);
         }
         if !after.iter().all(|part| part.is_finite()) {
             return Err(Stop::Undecided("the field has no value"));
         }
-        if step <= SHORTEST && systems.is_repelling(&motion, t + step, &after) {
+        let is_repelling = || systems.is_repelling(&motion, t + step, &after);
+        if step <= SHORTEST && (!agrees || is_repelling()) {
             return Err(Stop::Undecided("a weight has a pole"));
         }
         if !after.iter().all(|part| part.abs() < FAR) {
