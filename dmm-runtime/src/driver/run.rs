@@ -15,10 +15,10 @@ use super::next::enter;
 use super::segment::{InMode, Segment};
 use super::start::Start;
 use crate::arithmetic::{State, Time};
-use crate::contract::{System, Vector};
+use crate::contract::{Side, System, Vector};
 use crate::error::Error;
 use crate::method::{Cursor, Ended, Failure, Method, Observed, Silent, Statistics};
-use crate::output::{End, EndedBy, Observer, Point, Transition};
+use crate::output::{End, EndedBy, Observer, Point, Transition, TransitionKind};
 
 /// An integration under way.
 #[derive(Clone, Debug)]
@@ -148,8 +148,45 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
             system.visit(region, segment)
         };
         match ended {
+            Ok(Ended::AtGuard { guard, rate }) => {
+                if let Some(side) = system.metadata().end(guard).and_then(|end| end.side) {
+                    self.move_past_end(system, (guard, rate), side, until);
+                }
+                Ok(Ended::AtGuard { guard, rate })
+            }
             Ok(ended) => Ok(ended),
             Err(failure) => Err(self.error(system, failure)),
+        }
+    }
+
+    /// At the end of a sliding motion the field that the solution leaves with is tangential to the
+    /// interface: rounding errors decide on the sign of dg/dt. By the wrong one the solution would
+    /// come back at once, so it slides on, as little as the time can tell, until the sign is right.
+    #[cold]
+    #[inline(never)]
+    fn move_past_end(&mut self, system: &Sys, (guard, rate): (usize, f64), side: Side, until: f64) {
+        /// Doublings of the distance between two doubles.
+        const MOST: u32 = 20;
+        let Cursor { time, state, .. } = self.cursor;
+        let field = system.vector_field(self.region, time.value, &state.x);
+        let mut later = 0.0;
+        for _ in 0..MOST {
+            let there = (
+                time.after(later),
+                state.after(&(field * later)).normalised(),
+            );
+            let next = enter(system, (self.region, rate), guard, there.0, &there.1);
+            let transition = next.ok().and_then(|next| next.transition);
+            let left = transition.filter(|one| one.kind == TransitionKind::LeftSlide);
+            let Some(left) = left.filter(|_| there.0.value <= until) else {
+                return;
+            };
+            if left.rate_to * side.sign() > 0.0 {
+                (self.cursor.time, self.cursor.state) = there;
+                return;
+            }
+            let between = time.value.abs().next_up() - time.value.abs();
+            later = f64::max(2.0 * later, between);
         }
     }
 

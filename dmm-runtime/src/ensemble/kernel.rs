@@ -234,7 +234,8 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let remaining = n(self.settings.end) - self.register.time.value;
         let is_long = remaining.above(n(FASTEST)).or(last.above(n(0.0)));
         let too_small = n(SMALLEST_DECISIVE).above(last).and(is_long);
-        let too_large = n(LARGEST_DECISIVE).above(last).not();
+        let largest = n(LARGEST_DECISIVE);
+        let too_large = largest.above(last).and(largest.above(second)).not();
         let step = n(self.settings.fraction) * radius(order, last, second);
         (step, too_small.or(too_large))
     }

@@ -43,7 +43,8 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
         let before = self.in_units(before);
         let (last, second) = decisive_terms(self.coefficients(), order, before);
         // those of higher order are not, yet
-        if !(last > SMALLEST_DECISIVE && last < LARGEST_DECISIVE) {
+        let is_large = !(last < LARGEST_DECISIVE && second < LARGEST_DECISIVE);
+        if is_large || last <= SMALLEST_DECISIVE {
             return self.first_step(dynamics, t, fraction);
         }
         Ok(fraction * radius(order, last, second) * self.unit())
@@ -120,16 +121,18 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
         usable.filter(|&k| in_range(k))
     }
 
-    /// What coefficients count relative to.
+    /// What coefficients count relative to. Where a solution leaves the origin along a tangent of
+    /// it, that is the first derivative that is not zero.
     fn size(&self) -> f64 {
         /// A state that changes by so many times its size in a unit of time is next to nothing.
         const NOTHING: f64 = 1e-100;
         let (size, change) = (self.largest(0), self.largest(1));
         if size > change * NOTHING {
-            size
-        } else {
-            change.max(f64::MIN_POSITIVE)
+            return size;
         }
+        let mut changes = (1..=self.order()).map(|k| self.largest(k));
+        let first = changes.find(|&change| change != 0.0);
+        first.unwrap_or_default().max(f64::MIN_POSITIVE)
     }
 
     /// The radius of convergence by the coefficients of an order and the one below.
