@@ -44,7 +44,8 @@ fn a_slide_forgets_all_but_where_it_is() -> Result<(), Failure> {
         for i in 0..2 {
             let expected = -field[i] * met.time_by_initial[j];
             let error = (end.by_initial[(i, j)] - expected).abs();
-            assert!(error < 1e-11, "{i} {j}: {error:e}");
+            // the flow behind the end of the slide enlarges rounding errors of its time
+            assert!(error < 1e-10, "{i} {j}: {error:e}");
         }
     }
     // beside a difference
