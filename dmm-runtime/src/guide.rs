@@ -246,6 +246,57 @@
 //! # Ok::<(), dmm_runtime::Error>(())
 //! ```
 //!
+//! # Derivatives, and a shooting method
+//!
+//! The derivatives of a solution by its initial state and by the parameters are asked of the solution.
+//! With them Newton's method finds what leads to a goal: here the height from which the ball is back
+//! at its highest point after a given time.
+//!
+//! ```
+//! use dmm_runtime::{Best, Integrator};
+//! # use dmm_runtime::pws;
+//! # pws! {
+//! #     pub system Ball {
+//! #         state x, v;
+//! #         param k = 4;
+//! #         interface spring = x;
+//! #         region free where spring > 0 {
+//! #             der(x) = v; der(v) = -1;
+//! #             conserved energy = v^2/2 + x;
+//! #         }
+//! #         region pressed where spring < 0 {
+//! #             der(x) = v; der(v) = -1 - k*x;
+//! #             conserved energy = v^2/2 + x + k*x^2/2;
+//! #         }
+//! #     }
+//! # }
+//! let t = 4.0;
+//! let mut height = 0.7;
+//! for _ in 0..8 {
+//!     let solution = Integrator::new(&Ball::default(), Best::tolerance(1e-14))
+//!         .initial(0.0, [height, 0.0])
+//!         .run_until(t)?;
+//!     let sensitivities = solution.sensitivities()?;
+//!     let (Some(end), Some(derivative)) = (solution.last(), sensitivities.last()) else {
+//!         break;
+//!     };
+//!     // v(t) = 0
+//!     height -= end.x[1] / derivative.by_initial[(1, 0)];
+//! }
+//! // twice a fall, and half a period of the spring about x = −1/4
+//! let bounce = |height: f64| {
+//!     let speed = (2.0 * height).sqrt();
+//!     2.0 * speed + (std::f64::consts::PI + 2.0 * (0.5 / speed).atan()) / 2.0
+//! };
+//! assert!((bounce(height) - t).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A transition has the derivatives of its time and of the states around it: the derivative of a return
+//! map, whose eigenvalues are the multipliers of a periodic orbit. Where there is none, because an
+//! interface is touched, several are met at once, or one is met at the end time itself, that is an
+//! error with its reason.
+//!
 //! # f, g and ψ at a point
 //!
 //! ```

@@ -113,6 +113,8 @@
 //! 55, 2017). A step that meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ
 //! and g = 0 (Hirani, Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
 //! [`Composed`] makes steps of order 4, 6 and 8 of it.
+//! [`RungeKutta`] has the classical families, explicit and implicit, which conserve by the correction
+//! of the level alone.
 //!
 //! [`Taylor`] takes the discrete vector field in minimal-norm form instead, with a Taylor
 //! polynomial of high order for its mean field and steps as long as a tolerance allows.
@@ -136,7 +138,7 @@
 //! | [`Taylor`] | the Taylor polynomial of the step |
 //! | exact flow in [`Best`] | the flow itself; g is affine there |
 //! | [`Symmetric`], [`Composed`] by a tolerance | the Taylor polynomial of order p + 1, led to the end of the step |
-//! | [`Symmetric`], [`Composed`] with uniform steps | the cubic through the ends of the step |
+//! | [`Symmetric`], [`Composed`], [`RungeKutta`] with uniform steps | the cubic through the ends of the step |
 //!
 //! With uniform steps the solution is only as good as the steps. A switching function that waves
 //! many times in a step is met at every zero along the cubic; what the *state* does within a step
@@ -144,6 +146,11 @@
 //! do resolve the state (f changes by less than half of its size in one), or g is affine, a step
 //! is looked at where g comes nearer to zero than half of what it changes by in this step and the
 //! one before.
+//!
+//! # Derivatives
+//!
+//! [`Solution::sensitivities`] gives the derivatives of a solution by its initial state and by the
+//! parameters: those of the steps that were made, through transitions of every kind.
 //!
 //! # Conservation for ever
 //!

@@ -65,6 +65,59 @@ fn every_family_keeps_its_order_through_a_switch() {
     }
 }
 
+/// The points of a run, with their regions.
+#[derive(Default)]
+struct Points(Vec<(f64, Vec<f64>, usize)>);
+
+impl AnyObserver for Points {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        (self.0).push((record.t, record.x.to_vec(), record.mode.region));
+        ControlFlow::Continue(())
+    }
+}
+
+/// Stewart's form of the paper (eqs 12–13): g = −S c with S = (−1, 1)ᵀ, θ the unit vector of the
+/// region, μ = min g and λ = g − μ. A step does not change its region, so that θᵢ λⱼᵢ = 0 for every
+/// point j of it, both ends included: cross complementarity (eq. 28). Steps between switches have one
+/// size (eq. 31) but for those that lead from a switch to the grid, and from the grid to a switch.
+#[test]
+fn active_sets_change_at_the_ends_of_steps() {
+    const TAU: f64 = 0.01;
+    let problem = find("spiral").unwrap();
+    for &method in MethodName::RUNGE_KUTTA {
+        let mut run = problem.default_run();
+        (run.method, run.step_size) = (method, TAU);
+        let mut points = Points::default();
+        problem.integrate(&run, &mut points).unwrap();
+        let multiplier = |x: &[f64], region: usize| {
+            let c = problem.switching_function(0, 0.0, x);
+            let g = [c, -c];
+            g[region] - g[0].min(g[1])
+        };
+        let mut others = 0;
+        for pair in points.0.windows(2) {
+            let [(t0, x0, region), (t1, x1, end)] = pair else {
+                continue;
+            };
+            if t0 == t1 {
+                continue;
+            }
+            assert_eq!(region, end);
+            for x in [x0, x1] {
+                let product = multiplier(x, *region);
+                assert!(
+                    product <= 4.0 * f64::EPSILON,
+                    "{} {product:e}",
+                    method.name()
+                );
+            }
+            others += usize::from((t1 - t0 - TAU).abs() > 1e-12);
+        }
+        // to the switch, from it to the grid, and to the end
+        assert!(others <= 3, "{}: {others}", method.name());
+    }
+}
+
 #[test]
 fn a_corrected_level_is_kept_to_rounding() {
     for name in ["elliptic", "kepler_refraction"] {

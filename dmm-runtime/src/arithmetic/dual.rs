@@ -65,6 +65,7 @@ impl<S: Scalar, const K: usize> Dual<S, K> {
 }
 
 /// Gauss–Legendre quadrature of order 16 on [0, 1].
+#[allow(clippy::excessive_precision, reason = "the digits of the source")]
 const NODES: [f64; 8] = [
     0.019_855_071_751_231_884,
     0.101_666_761_293_186_63,
@@ -75,6 +76,7 @@ const NODES: [f64; 8] = [
     0.898_333_238_706_813_4,
     0.980_144_928_248_768_1,
 ];
+#[allow(clippy::excessive_precision, reason = "the digits of the source")]
 const WEIGHTS: [f64; 8] = [
     0.050_614_268_145_188_13,
     0.111_190_517_226_687_24,

@@ -58,7 +58,7 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
                 .map(|row| row.iter().map(|a| a.abs()).sum());
             let norm = rows.fold(0.0, |largest: f64, row: f64| largest.max(row));
             parts = (norm * tau.abs()).ceil().max(1.0);
-            if !(parts <= MOST_PARTS) {
+            if parts > MOST_PARTS || parts.is_nan() {
                 return None;
             }
         }

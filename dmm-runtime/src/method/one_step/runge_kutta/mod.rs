@@ -38,6 +38,18 @@ use tableau::Tableau;
 /// the interface, whose conserved quantities are the switching functions; the order there is that of
 /// the method for every family, because nothing algebraic is left to be solved for.
 ///
+/// The objects of that paper are found here as follows:
+///
+/// | there | here |
+/// |---|---|
+/// | regions Rᵢ of sign patterns of c (eq. 12), g = −S c (eq. 13) | [`Metadata::regions`](crate::Metadata::regions) and their sides; g is not needed |
+/// | θ | 1 for the region; on a sliding arc the weights that the compiler solves for |
+/// | λ = g − μ, μ = min g | 0 for the region, positive for the others |
+/// | the sliding motion (eq. 14), of index 2 | the mean field, with the switching functions among ψ |
+/// | the next active set (eqs 17–18) | every side of each interface, or a slide on it, tried against the fields there: none or several is an error |
+/// | cross complementarity (eq. 28) | a step has one region, and ends where it is left |
+/// | step equilibration (eq. 31) | steps of one size, but for those to and from a switch |
+///
 /// None of them conserves ψ but for affine quantities, and `gauss_legendre` quadratic ones. The
 /// correction of the level that [`Uniform`] makes after each step (default: yes) does: with it ψ is
 /// kept as by any other scheme.
