@@ -8,7 +8,9 @@
 //!   high order, for what the reference does not list;
 //! - [`convergence`], [`conservation`], [`work_precision`] and [`stress`]: the studies; [`fit`] and
 //!   [`growth`]: orders and exponents of errors; the crate `dmm_picture`: their figures;
-//! - [`perturbed`]: the perturbed locator that Hirani, Wan & Wojtalewicz compare with.
+//! - [`perturbed`]: the perturbed locator that Hirani, Wan & Wojtalewicz compare with; [`standard`]:
+//!   Runge–Kutta steps without detection of switches, which Nurkanović, Sperl, Albrecht & Diehl compare
+//!   with.
 
 pub mod accurate;
 pub mod conservation;
@@ -21,6 +23,7 @@ pub mod problem;
 pub mod random;
 pub mod reference;
 pub mod registry;
+pub mod standard;
 pub mod stress;
 pub mod systems;
 pub mod truth;

@@ -108,13 +108,21 @@ macro_rules! methods {
                     Self::Perturbed(_) => order(2),
                 }
             }
+
+            /// The Runge–Kutta method that it is, if it is one.
+            pub fn runge_kutta(self) -> Option<RungeKutta> {
+                match self {
+                    $(Self::$other => Some($other_scheme),)+
+                    _ => None,
+                }
+            }
         }
 
         impl MethodChoice for Run {
             fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
                 match self.method {
                     $(MethodName::$variant => visitor.visit(apply(self, $scheme)),)+
-                    $(MethodName::$other => visitor.visit(apply(self, $other_scheme)),)+
+                    $(MethodName::$other => visitor.visit(runge_kutta(self, $other_scheme)),)+
                     MethodName::Perturbed(late) => visitor.visit(symmetric(self, late)),
                 }
             }
@@ -160,39 +168,39 @@ methods! {
     }
     runge_kutta {
         /// Euler's method
-        Euler, "euler", order(1), |run| runge_kutta(run, RungeKutta::explicit::<1>());
+        Euler, "euler", order(1), RungeKutta::explicit::<1>();
         /// the explicit midpoint rule
-        ExplicitMidpoint, "explicit-midpoint", order(2), |run| runge_kutta(run, RungeKutta::explicit::<2>());
+        ExplicitMidpoint, "explicit-midpoint", order(2), RungeKutta::explicit::<2>();
         /// Heun's method of order 3
-        Heun3, "heun-3", order(3), |run| runge_kutta(run, RungeKutta::explicit::<3>());
+        Heun3, "heun-3", order(3), RungeKutta::explicit::<3>();
         /// the classical Runge–Kutta method of order 4
-        Classical4, "classical-4", order(4), |run| runge_kutta(run, RungeKutta::explicit::<4>());
+        Classical4, "classical-4", order(4), RungeKutta::explicit::<4>();
         /// the method of order 5 of Dormand and Prince
-        DormandPrince5, "dormand-prince-5", order(5), |run| runge_kutta(run, RungeKutta::dormand_prince());
+        DormandPrince5, "dormand-prince-5", order(5), RungeKutta::dormand_prince();
         /// Gauss–Legendre of one stage, order 2
-        GaussLegendre1, "gauss-legendre-1", order(2), |run| runge_kutta(run, RungeKutta::gauss_legendre::<1>());
+        GaussLegendre1, "gauss-legendre-1", order(2), RungeKutta::gauss_legendre::<1>();
         /// Gauss–Legendre of two stages, order 4
-        GaussLegendre2, "gauss-legendre-2", order(4), |run| runge_kutta(run, RungeKutta::gauss_legendre::<2>());
+        GaussLegendre2, "gauss-legendre-2", order(4), RungeKutta::gauss_legendre::<2>();
         /// Gauss–Legendre of three stages, order 6
-        GaussLegendre3, "gauss-legendre-3", order(6), |run| runge_kutta(run, RungeKutta::gauss_legendre::<3>());
+        GaussLegendre3, "gauss-legendre-3", order(6), RungeKutta::gauss_legendre::<3>();
         /// Gauss–Legendre of four stages, order 8
-        GaussLegendre4, "gauss-legendre-4", order(8), |run| runge_kutta(run, RungeKutta::gauss_legendre::<4>());
+        GaussLegendre4, "gauss-legendre-4", order(8), RungeKutta::gauss_legendre::<4>();
         /// Radau IIA of one stage, order 1
-        RadauIia1, "radau-iia-1", order(1), |run| runge_kutta(run, RungeKutta::radau_iia::<1>());
+        RadauIia1, "radau-iia-1", order(1), RungeKutta::radau_iia::<1>();
         /// Radau IIA of two stages, order 3
-        RadauIia2, "radau-iia-2", order(3), |run| runge_kutta(run, RungeKutta::radau_iia::<2>());
+        RadauIia2, "radau-iia-2", order(3), RungeKutta::radau_iia::<2>();
         /// Radau IIA of three stages, order 5
-        RadauIia3, "radau-iia-3", order(5), |run| runge_kutta(run, RungeKutta::radau_iia::<3>());
+        RadauIia3, "radau-iia-3", order(5), RungeKutta::radau_iia::<3>();
         /// Radau IIA of four stages, order 7
-        RadauIia4, "radau-iia-4", order(7), |run| runge_kutta(run, RungeKutta::radau_iia::<4>());
+        RadauIia4, "radau-iia-4", order(7), RungeKutta::radau_iia::<4>();
         /// Radau IIA of five stages, order 9
-        RadauIia5, "radau-iia-5", order(9), |run| runge_kutta(run, RungeKutta::radau_iia::<5>());
+        RadauIia5, "radau-iia-5", order(9), RungeKutta::radau_iia::<5>();
         /// Lobatto IIIC of two stages, order 2
-        LobattoIiic2, "lobatto-iiic-2", order(2), |run| runge_kutta(run, RungeKutta::lobatto_iiic::<2>());
+        LobattoIiic2, "lobatto-iiic-2", order(2), RungeKutta::lobatto_iiic::<2>();
         /// Lobatto IIIC of three stages, order 4
-        LobattoIiic3, "lobatto-iiic-3", order(4), |run| runge_kutta(run, RungeKutta::lobatto_iiic::<3>());
+        LobattoIiic3, "lobatto-iiic-3", order(4), RungeKutta::lobatto_iiic::<3>();
         /// Lobatto IIIC of four stages, order 6
-        LobattoIiic4, "lobatto-iiic-4", order(6), |run| runge_kutta(run, RungeKutta::lobatto_iiic::<4>());
+        LobattoIiic4, "lobatto-iiic-4", order(6), RungeKutta::lobatto_iiic::<4>();
     }
 }
 

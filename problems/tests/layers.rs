@@ -4,10 +4,11 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "random",
     "fit",
     "growth",
+    "standard",
     "perturbed",
     "method",
     "problem",

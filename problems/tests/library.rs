@@ -46,6 +46,71 @@ mod method {
     }
 }
 
+mod standard {
+    use dmm_problems::method::MethodName;
+    use dmm_problems::standard::{TwoRegions, integrate};
+
+    /// x(2) of ẋ = −sgn x from x(0) = 1, which slides from t = 1.
+    fn slides(method: MethodName, steps: u32) -> f64 {
+        let system = TwoRegions {
+            below: &|_, _| vec![1.0],
+            above: &|_, _| vec![-1.0],
+            switching_function: &|_, x| x[0],
+        };
+        let method = method.runge_kutta().unwrap();
+        integrate(&system, method, &[1.0], 2.0, steps).unwrap()[0]
+    }
+
+    #[test]
+    fn implicit_steps_slide_and_explicit_ones_chatter() {
+        for steps in [20, 23] {
+            let tau = 2.0 / f64::from(steps);
+            for &method in MethodName::RUNGE_KUTTA {
+                let x = slides(method, steps).abs();
+                assert!(x < 1.5 * tau, "{}: {x}", method.name());
+            }
+            // the last stage is the end of the step: it is put on the surface
+            for method in [
+                MethodName::RadauIia1,
+                MethodName::RadauIia3,
+                MethodName::LobattoIiic3,
+            ] {
+                let x = slides(method, steps).abs();
+                assert!(x < 1e-12, "{}: {x}", method.name());
+            }
+        }
+        assert!(slides(MethodName::Euler, 23).abs() > 1e-3);
+    }
+
+    #[test]
+    fn smooth_steps_have_the_order_of_the_method() {
+        let system = TwoRegions {
+            below: &|_, x| vec![x[0]],
+            above: &|_, x| vec![x[0]],
+            switching_function: &|t, _| t - 2.0,
+        };
+        for &method in MethodName::RUNGE_KUTTA {
+            let error = |steps| {
+                let method = method.runge_kutta().unwrap();
+                let x = integrate(&system, method, &[1.0], 1.0, steps).unwrap();
+                (x[0] - 1f64.exp()).abs()
+            };
+            let (coarse, fine) = (error(3), error(6));
+            let order = (coarse / fine).log2();
+            let dmm_problems::method::Control::StepSize { order: theory } = method.control() else {
+                continue;
+            };
+            if fine > 1e-13 {
+                assert!(
+                    (order - f64::from(theory)).abs() < 0.5,
+                    "{}: {order}",
+                    method.name()
+                );
+            }
+        }
+    }
+}
+
 mod registry {
     use dmm_problems::registry::{all, find};
 

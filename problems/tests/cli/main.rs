@@ -2,6 +2,7 @@
 
 mod directory;
 mod ensemble;
+mod fesd;
 #[cfg(unix)]
 mod interrupt;
 mod refusals;

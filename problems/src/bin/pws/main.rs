@@ -71,7 +71,8 @@ enum Command {
     Bench(bench::Arguments),
     /// Push every scheme to the edge of what it can do.
     Stress(stress::Arguments),
-    /// Reproduce Figs 2-8 of Hirani, Wan & Wojtalewicz.
+    /// Reproduce Figs 2-8 of Hirani, Wan & Wojtalewicz, or with `--fesd` those of Nurkanović, Sperl,
+    /// Albrecht & Diehl.
     Paper(paper::Arguments),
 }
 

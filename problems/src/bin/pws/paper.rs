@@ -3,13 +3,16 @@
 //!
 //! The paper gives neither the times it integrates to nor the sizes of its perturbations; ours
 //! are chosen here: 30 transitions, and a crossing located too late by c·τᵖ.
+//!
+//! `pws paper --fesd`: those of another paper, see [`fesd`].
 
 mod conserved;
+mod fesd;
 mod orders;
 mod report;
 mod trajectories;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::directory::DirectoryOptions;
 use crate::failure::Failure;
@@ -19,9 +22,16 @@ use crate::output::Table;
 use crate::progress::Progress;
 use report::{CONSERVED, Report, STATES, SYSTEMS, TIMES, TRAJECTORIES};
 
-/// Where to.
+/// Which, and where to.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
+    /// Reproduce Figs 5, 8, 9 and Example 3 of Nurkanović, Sperl, Albrecht & Diehl instead: the orders
+    /// of Runge-Kutta methods with and without detection of switches.
+    #[arg(long)]
+    fesd: bool,
+    /// The same with fewer points, in a few seconds.
+    #[arg(long, requires = "fesd")]
+    brief: bool,
     #[command(flatten)]
     directory: DirectoryOptions,
     /// How pictures are stored.
@@ -31,14 +41,29 @@ pub(crate) struct Arguments {
 
 /// Makes all figures.
 pub(crate) fn paper(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.fesd {
+        let extent = fesd::Extent::of(arguments.brief);
+        let request = json!({ "figures": [5, 8, 9], "examples": [3], "brief": arguments.brief });
+        let place = ("output/fesd", fesd::STEMS.as_slice());
+        return reproduce(arguments, place, request, |report| {
+            fesd::figures(report, &extent)
+        });
+    }
     let stems: Vec<String> = stems().collect();
     let stems: Vec<&str> = stems.iter().map(String::as_str).collect();
+    let request = json!({ "figures": [2, 3, 4, 5, 6, 7, 8] });
+    reproduce(arguments, ("output/paper", &stems), request, figures)
+}
+
+/// Makes the figures of a paper, and prints its numbers beside ours.
+fn reproduce(
+    arguments: &Arguments,
+    (default, stems): (&str, &[&str]),
+    request: Value,
+    figures: impl FnOnce(&mut Report) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let mut report = Report {
-        out: arguments.directory.open(
-            "output/paper",
-            &stems,
-            json!({ "figures": [2, 3, 4, 5, 6, 7, 8] }),
-        )?,
+        out: arguments.directory.open(default, stems, request)?,
         format: arguments.format.into(),
         rows: Vec::new(),
         progress: Progress::new("figures"),

@@ -175,6 +175,23 @@ impl RungeKutta {
         }
     }
 
+    /// The coefficients aᵢⱼ (by rows of length s, zero where a stage does not depend on another), bᵢ
+    /// and cᵢ.
+    ///
+    /// ```
+    /// use dmm_runtime::RungeKutta;
+    ///
+    /// let (a, b, c) = RungeKutta::explicit::<2>().coefficients();
+    /// assert_eq!(a, [[0.0, 0.0], [0.5, 0.0]]);
+    /// assert_eq!((b, c), (&[0.0, 1.0][..], &[0.0, 0.5][..]));
+    /// ```
+    pub fn coefficients(&self) -> (Vec<Vec<f64>>, &'static [f64], &'static [f64]) {
+        let Tableau { a, b, c, .. } = self.tableau;
+        let entry = |row: &[f64], j| row.get(j).copied().unwrap_or_default();
+        let row = |row: &&[f64]| (0..b.len()).map(|j| entry(row, j)).collect();
+        (a.iter().map(row).collect(), b, c)
+    }
+
     /// Uniform steps of `step_size` (in the unit of time), which must be positive and finite;
     /// the integrator refuses others.
     pub fn step_size(self, step_size: f64) -> Uniform<Self> {

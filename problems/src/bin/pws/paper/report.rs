@@ -1,4 +1,4 @@
-//! What all figures of the paper share.
+//! What all figures of a paper share.
 
 use std::ops::ControlFlow;
 
@@ -65,11 +65,18 @@ impl Report {
         paper: &str,
         ours: impl Into<String>,
     ) {
-        self.rows.push([
-            format!("Fig. {figure}"),
-            what.into(),
-            paper.to_owned(),
-            ours.into(),
-        ]);
+        self.line(format!("Fig. {figure}"), what, paper, ours);
+    }
+
+    /// The same of any place in the paper.
+    pub(super) fn line(
+        &mut self,
+        place: impl Into<String>,
+        what: impl Into<String>,
+        paper: impl Into<String>,
+        ours: impl Into<String>,
+    ) {
+        let row = [place.into(), what.into(), paper.into(), ours.into()];
+        self.rows.push(row);
     }
 }
