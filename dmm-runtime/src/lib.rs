@@ -186,8 +186,9 @@ pub use ensemble::{Ensemble, Member, Outcome};
 pub use error::{Error, ErrorKind, Place};
 pub use method::best::Best;
 pub use method::one_step::{
-    Adaptive, Composed, Composition, Correction, Crossing, Located, Locator, NewtonLocator,
-    OneStep, RungeKutta, Step, SubSteps, Symmetric, Uniform,
+    Adaptive, Composed, Composition, Correction, Crossing, EmbeddedRungeKutta, ErrorEstimate,
+    Located, Locator, NewtonLocator, OneStep, RungeKutta, Step, SubSteps, Symmetric,
+    TaylorCoefficients, Uniform,
 };
 pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure, Variation};
