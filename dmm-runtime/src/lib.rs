@@ -44,7 +44,7 @@
 //! |---|---|
 //! | declare a system | [`pws!`] |
 //! | integrate it | [`Integrator`] with a [`Method`]: [`Best`], unless another one is meant |
-//! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`] |
+//! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`], [`RungeKutta`], [`EmbeddedRungeKutta`] |
 //! | go step by step, stop, change, go on | [`Stepper`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | write it to files | [`Solution::write_csv`], [`Solution::write_transitions_csv`] |
@@ -114,6 +114,9 @@
 //! and g = 0 (Hirani, Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
 //! [`Composed`] makes steps of order 4, 6 and 8 of it.
 //!
+//! [`RungeKutta`] methods make uniform steps, [`EmbeddedRungeKutta`] steps by an estimate of their
+//! error; those of Radau IIA are for stiff regions. They keep ψ by a correction after each step.
+//!
 //! [`Taylor`] takes the discrete vector field in minimal-norm form instead, with a Taylor
 //! polynomial of high order for its mean field and steps as long as a tolerance allows.
 //!
@@ -136,7 +139,9 @@
 //! | [`Taylor`] | the Taylor polynomial of the step |
 //! | exact flow in [`Best`] | the flow itself; g is affine there |
 //! | [`Symmetric`], [`Composed`] by a tolerance | the Taylor polynomial of order p + 1, led to the end of the step |
-//! | [`Symmetric`], [`Composed`] with uniform steps | the cubic through the ends of the step |
+//! | Radau IIA in [`EmbeddedRungeKutta`] | the collocation polynomial, of degree s |
+//! | Dormand & Prince in [`EmbeddedRungeKutta`] | its continuous extension, of order 4 |
+//! | [`Symmetric`], [`Composed`], [`RungeKutta`] with uniform steps | the cubic through the ends of the step |
 //!
 //! With uniform steps the solution is only as good as the steps. A switching function that waves
 //! many times in a step is met at every zero along the cubic; what the *state* does within a step

@@ -21,10 +21,11 @@ use crate::method::{Cursor, Ended, Failure, Method, Sink, Variation, check_toler
 ///
 /// There are two ways to decide on a step. By an [`ErrorEstimate`](crate::ErrorEstimate) it is as
 /// long as the estimate of the error of the step before allows, and rejected if its own is too large.
-/// By [`TaylorCoefficients`] (default), which are there for every scheme, a step from x is as long as the Taylor coefficients of the solution at x allow: over it the
-/// first neglected one, relative to the largest size that each component has had, contributes
-/// about the tolerance. They come from the recurrences of [`Taylor`](crate::Taylor). Steps are
-/// rejected only where they cannot be made, or end where less than half of them is asked for.
+/// By [`TaylorCoefficients`] (default), which are there for every scheme, a step from x is as long as
+/// those of the solution at x allow: over it the first neglected one, relative to the largest size
+/// that each component has had, contributes about the tolerance. They come from the recurrences of
+/// [`Taylor`](crate::Taylor), up to order 9. Steps are rejected only where they cannot be made, or end
+/// where less than half of them is asked for.
 ///
 /// ψ is conserved whatever the steps are. Errors of phase grow no faster than the time either,
 /// without the steps being reversible: on Kepler orbits of eccentricity 0.9 (a thousand of them)

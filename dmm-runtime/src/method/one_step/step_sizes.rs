@@ -62,11 +62,6 @@ pub(super) struct Made<K, const N: usize> {
 
 /// How the sizes of steps by a tolerance are decided on: by [`TaylorCoefficients`](crate::TaylorCoefficients) or by an
 /// [`ErrorEstimate`](crate::ErrorEstimate).
-#[diagnostic::on_unimplemented(
-    message = "`{Map}` has no error estimate of this kind",
-    note = "methods with an error estimate are those of `EmbeddedRungeKutta`; any other one-step method \
-            goes by the Taylor coefficients of the solution: `Adaptive::new(method, tolerance)`"
-)]
 pub trait StepSizes<Map: OneStep>: Copy + Default + Sync {
     /// What goes from step to step within a segment.
     type Run<const N: usize>: Clone + Debug;

@@ -1,7 +1,7 @@
 //! Steps as long as the Taylor coefficients of the solution allow.
 
 use super::map::{OneStep, Step};
-use super::step_size::{Expansion, StepSizeControl};
+use super::step_size::{COEFFICIENTS, Expansion, StepSizeControl};
 use super::step_sizes::{Carried, DENSE, Output, StepSizes, Trial};
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{State, Time};
@@ -99,7 +99,7 @@ impl<Map: OneStep> StepSizes<Map> for TaylorCoefficients {
     ) -> Output<N> {
         let expansion = &run.expansion;
         let s = tau / expansion.unit;
-        let last = map.order() + 2;
+        let last = (map.order() + 2).min(COEFFICIENTS);
         let coefficients = std::array::from_fn(|i| {
             let mut dense = [0.0; DENSE];
             dense[..last].copy_from_slice(&expansion.coefficients[i][..last]);

@@ -18,8 +18,8 @@ const SAFETY: f64 = 0.9;
 const LONGEST: f64 = 8.0;
 /// And at least this part.
 const SHORTEST: f64 = 0.2;
-/// A first step that is rejected is made shorter by this.
-const FIRST: f64 = 0.1;
+/// The first step, as a part of what the Taylor coefficients allow a method of the same order.
+const FIRST: f64 = 0.5;
 /// An error below this part of the one allowed counts as this in a prediction.
 const LEAST: f64 = 1e-2;
 /// An implicit step that would grow by less than this is made as long as the one before, whose
@@ -142,7 +142,7 @@ impl EmbeddedRungeKutta {
         let solved = step.iterate(tableau, predicted, prepared, against, statistics);
         let Some(stages) = solved else {
             return Err(StepFailure::NoConvergence {
-                residual: f64::NAN,
+                residual: predicted.residual(tableau, step).sizes().amax(),
                 iterations: statistics.newton_iterations - iterations,
             });
         };
@@ -195,7 +195,7 @@ impl StepSizes<EmbeddedRungeKutta> for ErrorEstimate {
             memory: map.begin(dynamics, None),
             tolerance: allowed,
             sizes: Vector::from_column_slice(control.sizes()),
-            wanted: 1.0 / expansion.rate,
+            wanted: FIRST / expansion.rate,
             before: None,
             was_rejected: false,
         }
@@ -226,10 +226,7 @@ impl StepSizes<EmbeddedRungeKutta> for ErrorEstimate {
         let tau = step.tau;
         let power = 1.0 / (map.estimated_order() + 1) as f64;
         if error > 1.0 {
-            let factor = match run.before {
-                None if !run.was_rejected => FIRST,
-                _ => (SAFETY * error.powf(-power)).max(SHORTEST),
-            };
+            let factor = (SAFETY * error.powf(-power)).max(SHORTEST);
             run.was_rejected = true;
             return Ok(Trial::TooLong(Some(tau * factor)));
         }

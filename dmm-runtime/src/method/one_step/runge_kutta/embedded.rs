@@ -28,7 +28,7 @@ use crate::method::{Statistics, StepFailure, Variation};
 /// Appl. Math. 6, 1980). A component counts relative to the largest size that it has had, as in
 /// [`Adaptive`]; the estimate is held at the tolerance, that of Radau IIA, whose order is about half
 /// of the method's, at 0.1 tol^((s + 1)/2s).
-/// The next step follows from the last two errors (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+/// The first step is as long as the Taylor coefficients of the solution allow, the next one follows from the last two errors (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
 ///
 /// The stages of Radau IIA are solved for until what is left is a rounding error of the largest size
 /// of each component, whatever the tolerance is, so that steps end where the same step ends that is
@@ -52,7 +52,7 @@ use crate::method::{Statistics, StepFailure, Variation};
 /// }
 ///
 /// let solution = Integrator::new(&VanDerPol {}, EmbeddedRungeKutta::radau_iia::<3>().tolerance(1e-6))
-///     .initial(0.0, [2.0, -0.66])
+///     .initial(0.0, [2.0, 0.0])
 ///     .run_until(2.0)?;
 /// let end = solution.last().ok_or("no solution")?;
 /// assert!((end.x[0] - 1.706_167_732_170_5).abs() < 1e-4);
@@ -150,26 +150,19 @@ const DORMAND_PRINCE_WEIGHTS: [f64; 7] = [
 const DORMAND_PRINCE_DENSE: [[f64; 4]; 6] = [
     [1.0, -1337.0 / 480.0, 1039.0 / 360.0, -1163.0 / 1152.0],
     [0.0; 4],
-    [
-        0.0,
-        100.0 * 1054.0 / 9275.0,
-        -100.0 * 4682.0 / 27825.0,
-        100.0 * 379.0 / 5565.0,
-    ],
-    [0.0, -5.0 * 27.0 / 40.0, 5.0 * 9.0 / 5.0, -5.0 * 83.0 / 96.0],
-    [
-        0.0,
-        -18225.0 * 3.0 / 250.0,
-        18225.0 * 22.0 / 375.0,
-        -18225.0 * 37.0 / 600.0,
-    ],
-    [
-        0.0,
-        22.0 * 3.0 / 10.0,
-        -22.0 * 29.0 / 30.0,
-        22.0 * 17.0 / 24.0,
-    ],
+    times(
+        100.0 / 3.0,
+        [1054.0 / 9275.0, -4682.0 / 27825.0, 379.0 / 5565.0],
+    ),
+    times(-5.0 / 2.0, [27.0 / 40.0, -9.0 / 5.0, 83.0 / 96.0]),
+    times(18225.0 / 848.0, [-3.0 / 250.0, 22.0 / 375.0, -37.0 / 600.0]),
+    times(-22.0 / 7.0, [-3.0 / 10.0, 29.0 / 30.0, -17.0 / 24.0]),
 ];
+
+/// Coefficients of θ², θ³ and θ⁴ times a factor.
+const fn times(factor: f64, [second, third, fourth]: [f64; 3]) -> [f64; 4] {
+    [0.0, factor * second, factor * third, factor * fourth]
+}
 
 static DORMAND_PRINCE: Pair = Pair {
     tableau: &tableaux::DORMAND_PRINCE,

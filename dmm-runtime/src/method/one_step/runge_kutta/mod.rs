@@ -25,7 +25,7 @@ use tableau::Tableau;
 ///
 /// xᵢ = x₀ + τ Σⱼ aᵢⱼ f(t₀ + cⱼτ, xⱼ), x₁ = x₀ + τ Σᵢ bᵢ f(t₀ + cᵢτ, xᵢ),
 ///
-/// in uniform steps (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, eq.
+/// in uniform steps; [`EmbeddedRungeKutta`] makes steps by a tolerance (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, eq.
 /// II.1.8).
 ///
 /// | family | stages | order |
