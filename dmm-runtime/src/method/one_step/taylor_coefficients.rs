@@ -23,15 +23,14 @@ pub struct Run<T, const N: usize> {
     control: StepSizeControl<N>,
     /// The solution at the start of the next step.
     expansion: Expansion<N>,
+    /// The solution at its end, of a step that was made: kept here, so that it is not moved from
+    /// function to function.
+    end: Expansion<N>,
 }
-
-/// The solution at the end of a step.
-#[derive(Debug)]
-pub struct Known<const N: usize>(Expansion<N>);
 
 impl<Map: OneStep> StepSizes<Map> for TaylorCoefficients {
     type Run<const N: usize> = Run<Map::Memory<N>, N>;
-    type Known<const N: usize> = Known<N>;
+    type Known<const N: usize> = ();
 
     fn begin<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
         (map, tolerance): (&Map, f64),
@@ -40,9 +39,11 @@ impl<Map: OneStep> StepSizes<Map> for TaylorCoefficients {
         carried: &Carried<N>,
     ) -> Self::Run<N> {
         let mut control = StepSizeControl::new(map.order(), tolerance, carried.sizes.as_slice());
+        let expansion = control.expand(dynamics, t, x, carried.step);
         Run {
             memory: map.begin(dynamics, None),
-            expansion: control.expand(dynamics, t, x, carried.step),
+            expansion,
+            end: expansion,
             control,
         }
     }
@@ -55,26 +56,29 @@ impl<Map: OneStep> StepSizes<Map> for TaylorCoefficients {
         run.control.sizes()
     }
 
+    #[inline]
     fn attempt<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
         map: &Map,
         run: &mut Self::Run<N>,
         step: &Step<'_, D, N>,
         end: f64,
         statistics: &mut Statistics,
-    ) -> Result<Trial<Known<N>, N>, StepFailure> {
+    ) -> Result<Trial<(), N>, StepFailure> {
         let increment = if run.expansion.is_at_rest {
             Vector::zeros()
         } else {
             map.varied_step(step, &mut run.memory, statistics)?
         };
         let x1 = step.x0 + increment;
-        let expansion = run.control.expand(step.dynamics, end, &x1, step.tau);
-        if !(is_finite(&x1) && expansion.rate.is_finite()) {
+        run.end = run.control.expand(step.dynamics, end, &x1, step.tau);
+        if !(is_finite(&x1) && run.end.rate.is_finite()) {
             return Err(StepFailure::NotFinite);
         }
-        Ok(if expansion.rate * step.tau <= TOO_LONG {
-            let known = Known(expansion);
-            Trial::Made { increment, known }
+        Ok(if run.end.rate * step.tau <= TOO_LONG {
+            Trial::Made {
+                increment,
+                known: (),
+            }
         } else {
             Trial::TooLong(None)
         })
@@ -94,7 +98,7 @@ impl<Map: OneStep> StepSizes<Map> for TaylorCoefficients {
     fn dense<const N: usize>(
         map: &Map,
         run: &Self::Run<N>,
-        _known: &Known<N>,
+        _known: &(),
         (_, increment, tau): (&Vector<f64, N>, &Vector<f64, N>, f64),
     ) -> Output<N> {
         let expansion = &run.expansion;
@@ -120,8 +124,8 @@ impl<Map: OneStep> StepSizes<Map> for TaylorCoefficients {
         tolerance.powf(1.0 / (map.order() + 1) as f64)
     }
 
-    fn advance<const N: usize>(run: &mut Self::Run<N>, Known(expansion): Known<N>) {
-        run.expansion = expansion;
+    fn advance<const N: usize>(run: &mut Self::Run<N>, _known: ()) {
+        run.expansion = run.end;
     }
 
     fn reach<const N: usize, const M: usize, D: Dynamics<f64, N, M>>(

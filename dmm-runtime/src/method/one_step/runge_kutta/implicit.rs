@@ -150,6 +150,7 @@ impl Prepared {
 
     /// Makes the matrices of a step, if they are not there: whether the Jacobian is of this step;
     /// nothing if a matrix is singular.
+    #[inline]
     fn fit<F, const N: usize, const M: usize>(
         &mut self,
         tableau: &Tableau,
