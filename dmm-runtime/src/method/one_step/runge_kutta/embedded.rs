@@ -24,11 +24,13 @@ use crate::method::{Statistics, StepFailure, Variation};
 /// | [`radau_iia::<5>`](Self::radau_iia) | 5 | 9 | the same, of order 5 |
 ///
 /// 1/γ₀ is the real eigenvalue of A⁻¹, and e makes x̂₁ a quadrature formula of order s (Hairer &
-/// Wanner, Solving Ordinary Differential Equations II, eqs. IV.8.17–8.20; Dormand & Prince, J. Comput.
+/// Wanner, Solving Ordinary Differential Equations II, section IV.8; Dormand & Prince, J. Comput.
 /// Appl. Math. 6, 1980). A component counts relative to the largest size that it has had, as in
-/// [`Adaptive`]; the estimate is held at the tolerance, that of Radau IIA, whose order is about half
-/// of the method's, at 0.1 tol^((s + 1)/2s).
-/// The first step is as long as the Taylor coefficients of the solution allow, the next one follows from the last two errors (Gustafsson, ACM Trans. Math. Softw. 20, 1994).
+/// [`Adaptive`]. The estimate is held at the tolerance; that of Radau IIA, whose order is about half
+/// of the method's, at 0.1 tol^((s + 1)/2s). The first step is half as long as the Taylor
+/// coefficients of the solution allow, the next one follows from the last two errors (Gustafsson,
+/// ACM Trans. Math. Softw. 20, 1994). A step fails as those of [`RungeKutta`] do, after it was made
+/// shorter in vain.
 ///
 /// The stages of Radau IIA are solved for until what is left is a rounding error of the largest size
 /// of each component, whatever the tolerance is, so that steps end where the same step ends that is
