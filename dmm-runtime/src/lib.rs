@@ -44,7 +44,7 @@
 //! |---|---|
 //! | declare a system | [`pws!`] |
 //! | integrate it | [`Integrator`] with a [`Method`]: [`Best`], unless another one is meant |
-//! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`] |
+//! | choose a method by name | [`Taylor`], [`Symmetric`], [`Composed`], [`RungeKutta`], [`EmbeddedRungeKutta`] |
 //! | go step by step, stop, change, go on | [`Stepper`] |
 //! | look at the result | [`Solution`]: points, [`Transition`]s, [`Statistics`], [`Solution::at`] |
 //! | write it to files | [`Solution::write_csv`], [`Solution::write_transitions_csv`] |
@@ -113,8 +113,10 @@
 //! 55, 2017). A step that meets an interface is split at (t̂*, x̂*) with x̂* = x_k + (t̂* − t_k) f^τ
 //! and g = 0 (Hirani, Wan & Wojtalewicz, Algorithm 2.1), which keeps the order.
 //! [`Composed`] makes steps of order 4, 6 and 8 of it.
-//! [`RungeKutta`] has the classical families, explicit and implicit, which conserve by the correction
-//! of the level alone.
+//!
+//! [`RungeKutta`] has the classical families, explicit and implicit, in uniform steps,
+//! [`EmbeddedRungeKutta`] those with an estimate of their error, in steps by it; Radau IIA is for
+//! stiff regions. They keep ψ by a correction after each step.
 //!
 //! [`Taylor`] takes the discrete vector field in minimal-norm form instead, with a Taylor
 //! polynomial of high order for its mean field and steps as long as a tolerance allows.
@@ -138,6 +140,8 @@
 //! | [`Taylor`] | the Taylor polynomial of the step |
 //! | exact flow in [`Best`] | the flow itself; g is affine there |
 //! | [`Symmetric`], [`Composed`] by a tolerance | the Taylor polynomial of order p + 1, led to the end of the step |
+//! | Radau IIA in [`EmbeddedRungeKutta`] | the collocation polynomial, of degree s |
+//! | Dormand & Prince in [`EmbeddedRungeKutta`] | its continuous extension, of order 4 |
 //! | [`Symmetric`], [`Composed`], [`RungeKutta`] with uniform steps | the cubic through the ends of the step |
 //!
 //! With uniform steps the solution is only as good as the steps. A switching function that waves
@@ -193,8 +197,9 @@ pub use ensemble::{Ensemble, Member, Outcome};
 pub use error::{Error, ErrorKind, Place};
 pub use method::best::Best;
 pub use method::one_step::{
-    Adaptive, Composed, Composition, Correction, Crossing, Located, Locator, NewtonLocator,
-    OneStep, RungeKutta, Step, SubSteps, Symmetric, Uniform,
+    Adaptive, Composed, Composition, Correction, Crossing, EmbeddedRungeKutta, ErrorEstimate,
+    Located, Locator, NewtonLocator, OneStep, RungeKutta, Step, SubSteps, Symmetric,
+    TaylorCoefficients, Uniform,
 };
 pub use method::taylor::Taylor;
 pub use method::{Method, Statistics, StepFailure, Variation};

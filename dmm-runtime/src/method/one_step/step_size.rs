@@ -22,6 +22,8 @@ use crate::series::InUnits;
 
 /// Coefficients: enough for order 8.
 pub(crate) const COEFFICIENTS: usize = 10;
+/// The highest order that they are enough for: methods of higher order make steps of this one.
+const MOST: usize = COEFFICIENTS - 2;
 /// The part of the radius of convergence relative to the present sizes that a step may take.
 const RESOLVED: f64 = 0.5;
 
@@ -60,6 +62,7 @@ struct Wanted {
 impl<const N: usize> StepSizeControl<N> {
     /// At the start of a segment of a run in which components have had these sizes.
     pub(crate) fn new(order: usize, tolerance: f64, sizes: &[f64]) -> Self {
+        let order = order.min(MOST);
         Self {
             order,
             factor: tolerance.powf(-1.0 / (order + 1) as f64),

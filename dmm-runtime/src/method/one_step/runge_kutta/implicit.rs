@@ -3,8 +3,9 @@
 //! Newton's method with one Jacobian J for all stages, (I − τA⊗J) Δz = r with the residual r, falls
 //! on the eigenvectors of A⁻¹ into systems of the size of the state, (I − τ/λₖ J) Δwₖ = (T⁻¹r)ₖ
 //! (Hairer & Wanner, Solving Ordinary Differential Equations II, eq. IV.8.4). The factors are kept
-//! as long as the step size is the same and the iteration is fast. Where it does not converge, all
-//! stages are solved for together with their own Jacobians and damping.
+//! as long as the step size is the same and the iteration is fast, the Jacobian where the step size
+//! changes as well. Where it does not converge, all stages are solved for together with their own
+//! Jacobians and damping.
 
 use nalgebra::linalg::LU;
 use nalgebra::{Complex, DMatrix, DVector, Dyn};
@@ -32,18 +33,39 @@ const FAST: f64 = 0.03;
 /// Corrections by a Jacobian at the solution that do not fall off, and are below this part of the
 /// state, are rounding errors.
 const ROUNDING: f64 = 1e-10;
+/// Corrections that do not fall off, and are below this part of the sizes that errors are measured
+/// against, are rounding errors.
+const NOISE: f64 = 64.0 * f64::EPSILON;
+/// Iterations before a step that may be made shorter is given up.
+const FEW_ITERATIONS: u64 = 20;
+/// Step sizes that differ by less than this part have the same matrices.
+const SAME: f64 = 1e-9;
+
+/// What the corrections of an iteration are measured against.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Against<'a, const N: usize> {
+    /// The stages: to the rounding errors of the increment.
+    Stages,
+    /// These sizes of the components, or the stages where they are larger: to the rounding errors of
+    /// the state, in a step that may be made shorter instead.
+    Sizes(&'a Vector<f64, N>),
+}
 
 /// The matrices I − τ/λₖ J of a step size, factored.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Prepared {
     tau: f64,
+    /// J, by columns.
+    jacobian: Vec<f64>,
+    /// Whether the next step is to have another Jacobian.
+    is_stale: bool,
     by_eigenvalue: Vec<LU<Complex<f64>, Dyn, Dyn>>,
     work: DVector<Complex<f64>>,
 }
 
 impl Prepared {
     /// With the Jacobian in the middle of `stages`; nothing if a matrix is singular.
-    fn factor<F, const N: usize, const M: usize>(
+    fn renew<F, const N: usize, const M: usize>(
         &mut self,
         tableau: &Tableau,
         step: &Step<'_, F, N>,
@@ -59,14 +81,23 @@ impl Prepared {
             .fold(Vector::zeros(), |sum, z| sum + z * share);
         let time = tableau.c.iter().sum::<f64>() * share * step.tau + step.t0;
         let jacobian = step.dynamics.jacobian(time, &(step.x0 + middle));
+        self.jacobian.clear();
+        self.jacobian.extend(jacobian.iter());
+        self.is_stale = false;
+        self.factor::<N>(tableau, step.tau)
+    }
+
+    /// With the Jacobian that there is, for steps over `tau`.
+    fn factor<const N: usize>(&mut self, tableau: &Tableau, tau: f64) -> Option<()> {
+        let jacobian = &self.jacobian;
         let matrix = |value: Complex<f64>| {
-            let factor = -step.tau / value;
-            let entry = |i, j| factor * jacobian[(i, j)] + f64::from(u8::from(i == j));
+            let factor = -tau / value;
+            let entry = |i, j| factor * jacobian[i + N * j] + f64::from(u8::from(i == j));
             DMatrix::from_fn(N, N, entry).lu()
         };
         let eigen = tableau.transform().eigen.iter();
         self.by_eigenvalue = eigen.map(|eigen| matrix(eigen.value)).collect();
-        self.tau = step.tau;
+        self.tau = tau;
         self.work = DVector::zeros(N);
         let regular = self.by_eigenvalue.iter().all(LU::is_invertible);
         regular.then_some(())
@@ -92,13 +123,51 @@ impl Prepared {
         solution
     }
 
-    /// Asks for another Jacobian in the next step.
-    fn forget(&mut self) {
-        self.by_eigenvalue.clear();
+    /// (I − τ/λ J)⁻¹ v for the eigenvalue of this number, which is real; nothing if there are no
+    /// matrices.
+    pub(super) fn filter<const N: usize>(
+        &mut self,
+        eigenvalue: usize,
+        vector: &Vector<f64, N>,
+    ) -> Option<Vector<f64, N>> {
+        let lu = self.by_eigenvalue.get(eigenvalue)?;
+        for (entry, &value) in self.work.iter_mut().zip(vector) {
+            *entry = Complex::from(value);
+        }
+        lu.solve_mut(&mut self.work);
+        Some(Vector::from_fn(|k, _| self.work[k].re))
     }
 
-    fn fits(&self, tau: f64) -> bool {
-        self.tau == tau && !self.by_eigenvalue.is_empty()
+    /// Asks for another Jacobian in the next step.
+    pub(super) fn forget(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Whether the Jacobian is good for another step.
+    pub(super) fn is_good(&self) -> bool {
+        !self.is_stale && !self.jacobian.is_empty()
+    }
+
+    /// Makes the matrices of a step, if they are not there: whether the Jacobian is of this step;
+    /// nothing if a matrix is singular.
+    #[inline]
+    fn fit<F, const N: usize, const M: usize>(
+        &mut self,
+        tableau: &Tableau,
+        step: &Step<'_, F, N>,
+        stages: &Stages<N>,
+    ) -> Option<bool>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        if !self.is_good() {
+            self.renew(tableau, step, stages)?;
+            return Some(true);
+        }
+        if (self.tau - step.tau).abs() > SAME * step.tau {
+            self.factor::<N>(tableau, step.tau)?;
+        }
+        Some(false)
     }
 }
 
@@ -114,7 +183,7 @@ impl<F, const N: usize> Step<'_, F, N> {
     where
         F: Dynamics<f64, N, M>,
     {
-        match self.iterate(tableau, predicted, prepared, statistics) {
+        match self.iterate(tableau, predicted, prepared, Against::Stages, statistics) {
             Some(stages) => Ok(stages),
             None => {
                 prepared.forget();
@@ -123,28 +192,33 @@ impl<F, const N: usize> Step<'_, F, N> {
         }
     }
 
-    /// Newton's method with one Jacobian for all stages.
-    fn iterate<const M: usize>(
+    /// Newton's method with one Jacobian for all stages; nothing if it does not converge.
+    pub(super) fn iterate<const M: usize>(
         &self,
         tableau: &Tableau,
         mut stages: Stages<N>,
         prepared: &mut Prepared,
+        against: Against<'_, N>,
         statistics: &mut Statistics,
     ) -> Option<Stages<N>>
     where
         F: Dynamics<f64, N, M>,
     {
-        let mut is_new = !prepared.fits(self.tau);
-        if is_new {
-            prepared.factor(tableau, self, &stages)?;
-        }
+        let mut is_new = prepared.fit(tableau, self, &stages)?;
         let mut before = f64::INFINITY;
-        for _ in 0..MOST_ITERATIONS {
+        let most = match against {
+            Against::Stages => MOST_ITERATIONS,
+            Against::Sizes(_) => FEW_ITERATIONS,
+        };
+        for _ in 0..most {
             let residual = stages.residual(tableau, self);
             statistics.newton_iterations += 1;
             let correction = prepared.solve(tableau, &residual);
             stages.add(&correction);
-            let scale = stages.sizes() + self.x0.abs() * SHARE_OF_STATE;
+            let scale = match against {
+                Against::Stages => stages.sizes() + self.x0.abs() * SHARE_OF_STATE,
+                Against::Sizes(sizes) => stages.sizes().sup(sizes),
+            };
             let size = correction.relative(&scale);
             let rate = size / before;
             // the corrections that follow add up to size·rate/(1 − rate)
@@ -159,6 +233,9 @@ impl<F, const N: usize> Step<'_, F, N> {
                 return None;
             }
             if rate > SLOW {
+                if size <= NOISE && matches!(against, Against::Sizes(_)) {
+                    return Some(stages);
+                }
                 let state = stages.sizes() + self.x0.abs();
                 if is_new && correction.relative(&state) <= ROUNDING {
                     return Some(stages);
@@ -166,7 +243,7 @@ impl<F, const N: usize> Step<'_, F, N> {
                 if is_new && rate > 1.0 {
                     return None;
                 }
-                prepared.factor(tableau, self, &stages)?;
+                prepared.renew(tableau, self, &stages)?;
                 is_new = true;
                 before = f64::INFINITY;
                 continue;
@@ -243,6 +320,7 @@ impl<F, const N: usize> Step<'_, F, N> {
             Vector::from_fn(|k, _| solution[i * N + k])
         }))
     }
+
     /// I − τ aᵢⱼ Jⱼ, with the Jacobian of each stage.
     pub(super) fn matrix_of_all<const M: usize>(
         &self,

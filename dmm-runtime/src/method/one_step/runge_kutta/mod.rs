@@ -1,5 +1,7 @@
 //! Runge–Kutta methods, explicit and implicit.
 
+mod controlled;
+mod embedded;
 mod implicit;
 mod stages;
 mod tableau;
@@ -13,6 +15,8 @@ use crate::arithmetic::Scalar;
 use crate::arithmetic::linear::is_finite;
 use crate::contract::{Dynamics, Vector};
 use crate::method::{Statistics, StepFailure, Variation};
+pub use controlled::ErrorEstimate;
+pub use embedded::EmbeddedRungeKutta;
 use implicit::Prepared;
 use stages::Stages;
 use tableau::Tableau;
@@ -21,7 +25,7 @@ use tableau::Tableau;
 ///
 /// xᵢ = x₀ + τ Σⱼ aᵢⱼ f(t₀ + cⱼτ, xⱼ), x₁ = x₀ + τ Σᵢ bᵢ f(t₀ + cᵢτ, xᵢ),
 ///
-/// in uniform steps (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, eq.
+/// in uniform steps; [`EmbeddedRungeKutta`] makes steps by a tolerance (Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I, eq.
 /// II.1.8).
 ///
 /// | family | stages | order |
@@ -273,7 +277,7 @@ impl OneStep for RungeKutta {
         statistics: &mut Statistics,
     ) -> Result<Vector<f64, N>, StepFailure> {
         if self.tableau.is_explicit() {
-            return finite(step.explicit(self.tableau));
+            return finite(step.explicit(self.tableau).0);
         }
         let predicted = Stages::on_tangent(self.tableau, step);
         let stages = step.stages(
@@ -312,8 +316,11 @@ impl OneStep for RungeKutta {
 }
 
 impl<F, const N: usize> Step<'_, F, N> {
-    /// The increment of an explicit method.
-    fn explicit<const M: usize>(&self, tableau: &Tableau) -> Vector<f64, N>
+    /// The increment of an explicit method, and the fields at its stages.
+    fn explicit<const M: usize>(
+        &self,
+        tableau: &Tableau,
+    ) -> (Vector<f64, N>, [Vector<f64, N>; tableau::MOST_STAGES])
     where
         F: Dynamics<f64, N, M>,
     {
@@ -332,7 +339,7 @@ impl<F, const N: usize> Step<'_, F, N> {
             fields[i] = self.dynamics.vector_field(self.t0 + c * self.tau, &stage);
             increment += fields[i] * (b * self.tau);
         }
-        increment
+        (increment, fields)
     }
 }
 
