@@ -293,7 +293,7 @@ mod tests {
     fn what_cannot_be_answered_is_said() {
         for words in [
             &["run", "harmonic", "taylor", "step=1e-3", "10", "1"][..],
-            &["run", "harmonic", "euler", "step=1e-3", "10", "1"],
+            &["run", "harmonic", "leapfrog", "step=1e-3", "10", "1"],
             &["run", "harmonic", "taylor", "tolerance=2", "10", "1"],
             &["describe", "nosuch"],
             &["sing"],
