@@ -12,7 +12,7 @@ use crate::events::cubic::Course;
 use crate::events::ends::{Decay, Ends};
 use crate::events::{Enclosed, Met, Path, Search, Switching};
 use crate::expansion::jet::FIRST;
-use crate::level::Level;
+use crate::level::{GuardPoint, Level};
 use crate::method::{Active, Ended, Failure, Sink, Statistics};
 
 /// A watch for each guard of a mode.
@@ -154,9 +154,45 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
     ) -> Result<Ended, Failure> {
         let time = self.cursor.time.after(located.elapsed);
         self.outputs(dynamics, located.elapsed, time)?;
-        self.accept(dynamics, level, &located.increment, located.elapsed, time)?;
+        let corrects_level = self.corrects_level;
+        if !Map::CONSERVES
+            && corrects_level
+            && !dynamics.guards().is_condition(guard)
+            && let Some(rate) = self.settle(dynamics, level, guard, &located)
+        {
+            return Ok(Ended::AtGuard { guard, rate });
+        }
+        // where there is no such point, g = 0 is what counts
+        self.corrects_level &= Map::CONSERVES;
+        let accepted = self.accept(dynamics, level, &located.increment, located.elapsed, time);
+        self.corrects_level = corrects_level;
+        accepted?;
         let rate = dynamics.rate(guard, time.value, &self.cursor.state.x);
         Ok(Ended::AtGuard { guard, rate })
+    }
+
+    /// Moves to a guard by a map that does not conserve: to the point close to the located one at which
+    /// g = 0 and ψ has its level; gives dg/dt there.
+    #[cold]
+    fn settle<const M: usize, D: Dynamics<f64, N, M>>(
+        &mut self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        guard: usize,
+        located: &Located<N>,
+    ) -> Option<f64> {
+        let time = self.cursor.time.after(located.elapsed);
+        let state = self.cursor.state.after(&located.increment).normalised();
+        let near = GuardPoint::at(dynamics, guard, time, state);
+        let how = (true, true);
+        let (there, settled) = near.settled(dynamics, level, guard, &located.increment, how);
+        let is_later = there.time.since(self.cursor.time) >= 0.0;
+        if !(settled && is_later && is_finite(&there.state.x)) {
+            return None;
+        }
+        (self.cursor.time, self.cursor.state) = (there.time, there.state);
+        self.sink.statistics().steps += 1;
+        Some(there.rate)
     }
 
     /// The first crossing of a step with a dense output, if there is one.

@@ -5,7 +5,7 @@ use super::crossing::Locator;
 use super::map::{OneStep, Step};
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{State, Time};
-use crate::contract::{Dynamics, Vector};
+use crate::contract::{Dynamics, Guards, Side, Vector};
 use crate::level::{Level, Weights};
 use crate::method::{Cursor, Failure, Sink, Statistics, StepFailure};
 
@@ -78,7 +78,8 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
     }
 }
 
-/// Corrects a state that an increment led to towards the level.
+/// Corrects a state that an increment led to towards the level. By a map that does not conserve, that
+/// is more than rounding: it is left for later where it would lead across a guard.
 #[inline(always)]
 pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
     dynamics: &D,
@@ -90,6 +91,7 @@ pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<
     /// Of truncation errors; each squares what is left.
     const MOST_CORRECTIONS: u32 = 4;
     let weights = Weights::new(&state.x, increment);
+    let before = *state;
     let mut displacement = level.correction(dynamics, time, state, &weights);
     state.remainder += displacement;
     if Map::CONSERVES {
@@ -102,5 +104,13 @@ pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<
         *state = state.normalised();
         displacement = level.correction(dynamics, time, state, &weights);
         state.remainder += displacement;
+    }
+    *state = state.normalised();
+    let leaves = |&(guard, side): &(usize, Side)| {
+        let g = |x| side.sign() * dynamics.guards().switching_function(guard, time.value, x);
+        g(&before.x) > 0.0 && g(&state.x) <= 0.0
+    };
+    if dynamics.sides().iter().any(leaves) {
+        *state = before;
     }
 }
