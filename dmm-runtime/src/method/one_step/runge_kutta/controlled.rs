@@ -1,5 +1,7 @@
 //! Steps by an estimate of their error.
 
+use super::super::adaptive::Adaptive;
+use super::super::crossing::NewtonLocator;
 use super::super::map::{OneStep, Step};
 use super::super::step_size::StepSizeControl;
 use super::super::step_sizes::{Carried, DENSE, Output, StepSizes, Trial, shorten};
@@ -69,6 +71,12 @@ struct Estimated<const N: usize> {
 }
 
 impl EmbeddedRungeKutta {
+    /// Steps by a tolerance: each leaves an error of about `tolerance` relative to the largest size
+    /// that each component has had. Between 2.2·10⁻¹⁶ and 0.1; the integrator refuses others.
+    pub fn tolerance(self, tolerance: f64) -> Adaptive<Self, NewtonLocator, ErrorEstimate> {
+        Adaptive::by(self, tolerance)
+    }
+
     /// q: the error is estimated to O(τ^{q+1}).
     fn estimated_order(&self) -> usize {
         match self.pair.estimate {

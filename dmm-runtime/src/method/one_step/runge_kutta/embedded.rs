@@ -4,10 +4,7 @@ use std::sync::OnceLock;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::super::adaptive::Adaptive;
-use super::super::crossing::NewtonLocator;
 use super::super::map::{Correction, OneStep, Step};
-use super::controlled::ErrorEstimate;
 use super::tableau::Tableau;
 use super::{Memory, RungeKutta, tableaux};
 use crate::arithmetic::Scalar;
@@ -26,7 +23,7 @@ use crate::method::{Statistics, StepFailure, Variation};
 /// 1/γ₀ is the real eigenvalue of A⁻¹, and e makes x̂₁ a quadrature formula of order s (Hairer &
 /// Wanner, Solving Ordinary Differential Equations II, section IV.8; Dormand & Prince, J. Comput.
 /// Appl. Math. 6, 1980). A component counts relative to the largest size that it has had, as in
-/// [`Adaptive`]. The estimate is held at the tolerance; that of Radau IIA, whose order is about half
+/// [`Adaptive`](crate::Adaptive). The estimate is held at the tolerance; that of Radau IIA, whose order is about half
 /// of the method's, at 0.1 tol^((s + 1)/2s). The first step is half as long as the Taylor
 /// coefficients of the solution allow, the next one follows from the last two errors (Gustafsson,
 /// ACM Trans. Math. Softw. 20, 1994). A step fails as those of [`RungeKutta`] do, after it was made
@@ -206,12 +203,6 @@ impl EmbeddedRungeKutta {
                 _ => &RADAU_IIA_5,
             },
         }
-    }
-
-    /// Steps by a tolerance: each leaves an error of about `tolerance` relative to the largest size
-    /// that each component has had. Between 2.2·10⁻¹⁶ and 0.1; the integrator refuses others.
-    pub fn tolerance(self, tolerance: f64) -> Adaptive<Self, NewtonLocator, ErrorEstimate> {
-        Adaptive::by(self, tolerance)
     }
 
     /// Its steps.
