@@ -297,6 +297,13 @@
 //! interface is touched, several are met at once, or one is met at the end time itself, that is an
 //! error with its reason.
 //!
+//! | wanted | ask for |
+//! |---|---|
+//! | derivatives of all that there is, by few numbers | [`Solution::sensitivities`](crate::Solution::sensitivities) |
+//! | of few numbers, by many parameters | [`Solution::gradients`](crate::Solution::gradients) |
+//! | second derivatives, for Newton's method on a minimum | [`Solution::second_sensitivities`](crate::Solution::second_sensitivities) |
+//! | of the integral of l(t, x) | a state more, with `der(q) = l;` |
+//!
 //! # f, g and ψ at a point
 //!
 //! ```

@@ -155,6 +155,8 @@
 //!
 //! [`Solution::sensitivities`] gives the derivatives of a solution by its initial state and by the
 //! parameters: those of the steps that were made, through transitions of every kind.
+//! [`Solution::second_sensitivities`] gives the second derivatives as well, and
+//! [`Solution::gradients`] those of a few numbers, by the adjoint: where there are many parameters.
 //!
 //! # Conservation for ever
 //!
@@ -211,4 +213,7 @@ pub use output::{
     End, EndedBy, Halted, Interrupted, IntoControlFlow, Observer, OnPoint, OnTransition, Point,
     Progress, Solution, Transition, TransitionKind, on_point, on_transition, progress,
 };
-pub use sensitivity::{Sensitivities, Sensitivity, TransitionSensitivity};
+pub use sensitivity::{
+    Functional, Gradient, Hessians, SecondSensitivities, Sensitivities, Sensitivity,
+    TransitionHessians, TransitionSensitivity,
+};

@@ -1,6 +1,7 @@
 //! Numbers: scalars, pairs of doubles, time and state with their remainders, lanes, and the small
 //! linear systems of a step.
 
+mod chain;
 pub(crate) mod double;
 pub(crate) mod dual;
 pub(crate) mod error_free;
@@ -8,6 +9,7 @@ pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod masked;
 mod minimal_norm;
+pub(crate) mod recorded;
 mod scalar;
 mod sparse;
 mod state;
@@ -16,7 +18,7 @@ pub(crate) mod traced;
 
 pub use minimal_norm::MinimalNorm;
 pub use scalar::Scalar;
-pub(crate) use scalar::noise;
+pub(crate) use scalar::{Derived, noise};
 pub use sparse::sparse;
 pub use state::State;
 pub use time::Time;

@@ -26,6 +26,9 @@ pub trait Scalar:
     /// Half the distance from 1 to the next scalar: the relative rounding error.
     const ROUNDING: f64;
 
+    /// Orders of derivatives that it carries.
+    const DERIVATIVES: usize = 0;
+
     /// The scalar nearest to `value`.
     fn from_f64(value: f64) -> Self;
     /// The value as a double.
@@ -54,6 +57,11 @@ pub trait Scalar:
     #[inline(always)]
     fn squared(self) -> Self {
         self * self
+    }
+    /// Whether it is zero with all the derivatives that it carries.
+    #[inline(always)]
+    fn is_zero(self) -> bool {
+        self.to_f64() == 0.0
     }
     /// |u|
     fn abs(self) -> Self;
@@ -107,6 +115,12 @@ pub trait Scalar:
     fn atan_dd(self, b: Self) -> Self;
     /// ∂ atan_dd(a, b)/∂b
     fn atan_dd_prime(self, b: Self) -> Self;
+}
+
+/// A scalar that carries derivatives.
+pub(crate) trait Derived: Scalar {
+    /// h′(u) at a double; nothing where h has no value.
+    fn derivative(at: f64, h: impl FnOnce(Self) -> Option<Self>) -> Option<f64>;
 }
 
 /// A sum that is so many rounding errors of its terms away from zero is not distinguished from it.

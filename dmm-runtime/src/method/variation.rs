@@ -7,9 +7,9 @@ use crate::series::{InUnits, MOST_COEFFICIENTS};
 
 /// A step over dual numbers.
 ///
-/// The derivatives of an implicit step come from its own equation F(d) = 0, solved over doubles: one
-/// correction by the Jacobian of the values makes those of first order right, another one those of
-/// second order (Griewank & Walther, Evaluating Derivatives, section 15.3).
+/// The derivatives of an implicit step come from its own equation F(d) = 0, solved over doubles: each
+/// correction by the Jacobian of the values makes those of one order more right (Griewank & Walther,
+/// Evaluating Derivatives, section 15.3), so that [`Scalar::DERIVATIVES`] corrections do.
 #[derive(Debug)]
 pub struct Variation<'a, D, S, const N: usize> {
     pub(crate) dynamics: &'a D,
@@ -17,9 +17,6 @@ pub struct Variation<'a, D, S, const N: usize> {
     pub(crate) x0: Vector<S, N>,
     pub(crate) tau: S,
 }
-
-/// Corrections that make derivatives up to second order right.
-pub(crate) const CORRECTIONS: usize = 2;
 
 impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
     /// t₀, x₀ and τ as doubles.
@@ -45,11 +42,6 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
         /// Beyond it a linear field is too stiff for its polynomial.
         const MOST_PARTS: f64 = 1e5;
         let (t0, x0, tau) = self.values();
-        if tau == 0.0 {
-            // the derivatives of τ alone
-            let field = self.dynamics.vector_field(self.t0, &self.x0);
-            return Some(field.map(|f| f * self.tau));
-        }
         let mut parts = 1.0;
         if self.dynamics.is_affine() {
             let jacobian = self.dynamics.over::<f64>().jacobian(t0, &x0);
@@ -84,11 +76,15 @@ fn polynomial<D: Dynamics<S, N, M>, S: Scalar, const N: usize, const M: usize>(
     for (component, &x) in series.as_mut().iter_mut().zip(x) {
         component[0] = x;
     }
-    let unit = tau.to_f64();
-    for order in 0..MOST_COEFFICIENTS - 1 {
+    // where τ = 0 its derivatives count, and their powers
+    let (unit, orders) = match tau.to_f64() {
+        0.0 => (1.0, S::DERIVATIVES),
+        unit => (unit, MOST_COEFFICIENTS - 1),
+    };
+    for order in 0..orders {
         dynamics.advance(InUnits { order, unit }, t, &mut series);
     }
     let s = tau / S::from_f64(unit);
     let sum = |c: &[S]| c.iter().rev().fold(S::from_f64(0.0), |sum, &c| sum * s + c);
-    Vector::from_fn(|i, _| sum(&series.as_ref()[i]))
+    Vector::from_fn(|i, _| sum(&series.as_ref()[i][..=orders]))
 }

@@ -7,7 +7,7 @@ use super::Failure;
 
 pws! {
     /// A pendulum with a stop that takes speed, and a push by time.
-    system Pendulum {
+    pub system Pendulum {
         state q, p;
         param k = 1.3, e = 0.8, push = 0.4;
         interface stop = q - 0.5;

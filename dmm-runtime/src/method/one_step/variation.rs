@@ -5,7 +5,7 @@ use crate::arithmetic::linear::solve;
 use crate::arithmetic::{Matrix, Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::method::Statistics;
-use crate::method::variation::{CORRECTIONS, Variation};
+use crate::method::variation::Variation;
 
 impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
     /// The increment d of x₁ = x₀ + τ f^τ(t₀, x₀, t₀ + τ, x₁).
@@ -27,7 +27,7 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
         let inverse = inverse(&matrix)?;
         let t1 = self.t0 + self.tau;
         let mut increment = solved.map(S::from_f64);
-        for _ in 0..CORRECTIONS {
+        for _ in 0..S::DERIVATIVES {
             let x1 = self.end(&increment);
             let field = (self.dynamics).discrete_vector_field(self.t0, &self.x0, t1, &x1);
             let residual = Vector::<S, N>::from_fn(|i, _| increment[i] - field[i] * self.tau);

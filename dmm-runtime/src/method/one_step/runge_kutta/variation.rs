@@ -9,7 +9,7 @@ use super::tableau::{MOST_STAGES, Tableau};
 use crate::arithmetic::{Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::method::Statistics;
-use crate::method::variation::{CORRECTIONS, Variation};
+use crate::method::variation::Variation;
 
 /// Stages, or fields at them, over dual numbers.
 type Each<S, const N: usize> = [Vector<S, N>; MOST_STAGES];
@@ -33,7 +33,7 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
             for (stage, solved) in stages.iter_mut().zip(&solved.0) {
                 *stage = solved.map(S::from_f64);
             }
-            for _ in 0..CORRECTIONS {
+            for _ in 0..S::DERIVATIVES {
                 let fields = self.fields(tableau, &stages);
                 let residual: Each<S, N> = std::array::from_fn(|i| match tableau.a.get(i) {
                     Some(row) => difference(&self.weighted(row, &fields), &stages[i]),
