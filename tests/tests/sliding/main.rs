@@ -3,6 +3,7 @@
 mod chains;
 mod codimension;
 mod friction;
+mod orders;
 mod rules;
 
 use std::ops::ControlFlow;

@@ -42,14 +42,15 @@ impl<F, const N: usize> Step<'_, F, N> {
         F: Dynamics<f64, N, M>,
     {
         let x1 = self.x0 + increment;
-        let (field, jacobian) = self
-            .dynamics
-            .linearised(self.t0, self.x0, self.t0 + self.tau, &x1);
-        let mut matrix = jacobian * -self.tau;
+        let t1 = self.t0 + self.tau;
+        // where it is returned to: a matrix of 64 unknowns is better not copied
+        let mut both = self.dynamics.linearised(self.t0, self.x0, t1, &x1);
+        both.0 = increment - both.0 * self.tau;
+        both.1 *= -self.tau;
         for i in 0..N {
-            matrix[(i, i)] += 1.0;
+            both.1[(i, i)] += 1.0;
         }
-        (increment - field * self.tau, matrix)
+        both
     }
 
     /// The increment, from a predicted one.
@@ -86,14 +87,14 @@ impl<F, const N: usize> Step<'_, F, N> {
     {
         let mut increment = predicted;
         for _ in 0..LARGEST_ITERATIONS {
-            let (residual, matrix) = self.residual::<M>(&increment);
+            let (ref residual, ref matrix) = self.residual::<M>(&increment);
             statistics.newton_iterations += 1;
-            let Some(correction) = solve(&matrix, &residual) else {
+            let Some(correction) = solve(matrix, residual) else {
                 break;
             };
             increment -= correction;
             if self.is_converged(&increment, &correction)
-                || self.is_rounding(&residual, &matrix, &increment)
+                || self.is_rounding(residual, matrix, &increment)
             {
                 return Ok(increment);
             }
@@ -198,7 +199,7 @@ impl<F, const N: usize> Step<'_, F, N> {
     where
         F: Dynamics<f64, N, M>,
     {
-        let (residual, matrix) = self.residual::<M>(increment);
+        let (ref residual, ref matrix) = self.residual::<M>(increment);
         let t1 = self.t0 + self.tau;
         let x1 = self.x0 + increment;
         let mut right = self
@@ -208,8 +209,8 @@ impl<F, const N: usize> Step<'_, F, N> {
             right += self.dynamics.time_derivative(self.t0, self.x0, t1, &x1) * self.tau;
         }
         Some(Correction {
-            delta: -solve(&matrix, &residual)?,
-            velocity: solve(&matrix, &right)?,
+            delta: -solve(matrix, residual)?,
+            velocity: solve(matrix, &right)?,
         })
     }
     /// ∂x₁/∂s, where x₀, t₀ and t₁ change with s by `rates`:

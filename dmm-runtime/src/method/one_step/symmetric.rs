@@ -176,13 +176,13 @@ fn newton_and_look<const N: usize, const M: usize, F: Dynamics<f64, N, M>>(
         x0: &x0,
         tau,
     };
-    let (residual, matrix) = step.residual::<M>(increment);
-    let correction = solve(&matrix, &residual);
+    let (ref residual, ref matrix) = step.residual::<M>(increment);
+    let correction = solve(matrix, residual);
     statistics.newton_iterations += 1;
     *sweeps = Sweeps::new();
     if let Some(correction) = correction {
         *increment -= correction;
-        *sweeps = Sweeps::decide(&matrix, &correction, increment, &x0);
+        *sweeps = Sweeps::decide(matrix, &correction, increment, &x0);
         if step.is_converged(increment, &correction) {
             return None;
         }
