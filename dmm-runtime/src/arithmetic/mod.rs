@@ -5,6 +5,7 @@ mod chain;
 pub(crate) mod double;
 pub(crate) mod dual;
 pub(crate) mod error_free;
+pub(crate) mod factors;
 pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod masked;

@@ -1,8 +1,8 @@
 //! The derivatives of steps of the discrete multiplier method and of its compositions.
 
 use super::map::Step;
-use crate::arithmetic::linear::solve;
-use crate::arithmetic::{Matrix, Scalar, Vector};
+use crate::arithmetic::factors::Factors;
+use crate::arithmetic::{Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::method::Statistics;
 use crate::method::variation::Variation;
@@ -23,18 +23,17 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
         };
         let solved = step.increment::<M>(step.euler(), &mut Statistics::default());
         let solved = solved.ok()?;
-        let (_, matrix) = step.residual::<M>(&solved);
-        let inverse = inverse(&matrix)?;
+        let (_, ref matrix) = step.residual::<M>(&solved);
+        let factors = Factors::new(N, matrix.iter().copied())?;
         let t1 = self.t0 + self.tau;
         let mut increment = solved.map(S::from_f64);
         for _ in 0..S::DERIVATIVES {
             let x1 = self.end(&increment);
             let field = (self.dynamics).discrete_vector_field(self.t0, &self.x0, t1, &x1);
-            let residual = Vector::<S, N>::from_fn(|i, _| increment[i] - field[i] * self.tau);
-            for i in 0..N {
-                for j in 0..N {
-                    increment[i] -= S::from_f64(inverse[(i, j)]) * residual[j];
-                }
+            let mut residual = Vector::<S, N>::from_fn(|i, _| increment[i] - field[i] * self.tau);
+            factors.solve_over(residual.as_mut_slice(), S::from_f64);
+            for (entry, &correction) in increment.iter_mut().zip(&residual) {
+                *entry -= correction;
             }
         }
         Some(increment)
@@ -59,15 +58,4 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
         }
         Some(Vector::from_fn(|i, _| x0[i] - self.x0[i]))
     }
-}
-
-/// A⁻¹, if A is regular.
-fn inverse<const N: usize>(a: &Matrix<f64, N, N>) -> Option<Matrix<f64, N, N>> {
-    let mut inverse = Matrix::<f64, N, N>::zeros();
-    for i in 0..N {
-        let mut unit = Vector::<f64, N>::zeros();
-        unit[i] = 1.0;
-        inverse.set_column(i, &solve(a, &unit)?);
-    }
-    Some(inverse)
 }

@@ -7,12 +7,12 @@
 //! changes as well. Where it does not converge, all stages are solved for together with their own
 //! Jacobians and damping.
 
-use nalgebra::linalg::LU;
-use nalgebra::{Complex, DMatrix, DVector, Dyn};
+use nalgebra::Complex;
 
 use super::super::map::Step;
 use super::stages::Stages;
 use super::tableau::Tableau;
+use crate::arithmetic::factors::Factors;
 use crate::arithmetic::linear::is_finite;
 use crate::contract::{Dynamics, Vector};
 use crate::method::{Statistics, StepFailure};
@@ -59,8 +59,8 @@ pub(super) struct Prepared {
     jacobian: Vec<f64>,
     /// Whether the next step is to have another Jacobian.
     is_stale: bool,
-    by_eigenvalue: Vec<LU<Complex<f64>, Dyn, Dyn>>,
-    work: DVector<Complex<f64>>,
+    by_eigenvalue: Vec<Factors<Complex<f64>>>,
+    work: Vec<Complex<f64>>,
 }
 
 impl Prepared {
@@ -90,31 +90,32 @@ impl Prepared {
     /// With the Jacobian that there is, for steps over `tau`.
     fn factor<const N: usize>(&mut self, tableau: &Tableau, tau: f64) -> Option<()> {
         let jacobian = &self.jacobian;
-        let matrix = |value: Complex<f64>| {
-            let factor = -tau / value;
+        let eigen = &tableau.transform().eigen;
+        // of no step, if a matrix is singular
+        self.tau = 0.0;
+        self.work.resize(N, Complex::default());
+        self.by_eigenvalue
+            .resize_with(eigen.len(), Factors::default);
+        for (eigen, factors) in eigen.iter().zip(&mut self.by_eigenvalue) {
+            let factor = -tau / eigen.value;
             let entry = |i, j| factor * jacobian[i + N * j] + f64::from(u8::from(i == j));
-            DMatrix::from_fn(N, N, entry).lu()
-        };
-        let eigen = tableau.transform().eigen.iter();
-        self.by_eigenvalue = eigen.map(|eigen| matrix(eigen.value)).collect();
+            factors.renew(N, (0..N).flat_map(|j| (0..N).map(move |i| entry(i, j))))?;
+        }
         self.tau = tau;
-        self.work = DVector::zeros(N);
-        let regular = self.by_eigenvalue.iter().all(LU::is_invertible);
-        regular.then_some(())
+        Some(())
     }
 
     /// (I − τA⊗J)⁻¹ r
     fn solve<const N: usize>(&mut self, tableau: &Tableau, residual: &Stages<N>) -> Stages<N> {
         let mut solution = Stages::each(tableau, |_| Vector::zeros());
-        for (eigen, lu) in tableau.transform().eigen.iter().zip(&self.by_eigenvalue) {
+        for (eigen, factors) in tableau.transform().eigen.iter().zip(&self.by_eigenvalue) {
             self.work.fill(Complex::default());
             for (&weight, stage) in eigen.row.iter().zip(&residual.0) {
                 for (entry, &value) in self.work.iter_mut().zip(stage) {
                     *entry += weight * value;
                 }
             }
-            // regular, or it would not have been kept
-            lu.solve_mut(&mut self.work);
+            factors.solve(&mut self.work);
             for (&weight, stage) in eigen.vector.iter().zip(&mut solution.0) {
                 let part = |k: usize| (weight * self.work[k]).re;
                 *stage += Vector::from_fn(|k, _| part(k));
@@ -130,11 +131,11 @@ impl Prepared {
         eigenvalue: usize,
         vector: &Vector<f64, N>,
     ) -> Option<Vector<f64, N>> {
-        let lu = self.by_eigenvalue.get(eigenvalue)?;
+        let factors = self.by_eigenvalue.get(eigenvalue)?;
         for (entry, &value) in self.work.iter_mut().zip(vector) {
             *entry = Complex::from(value);
         }
-        lu.solve_mut(&mut self.work);
+        factors.solve(&mut self.work);
         Some(Vector::from_fn(|k, _| self.work[k].re))
     }
 
@@ -312,34 +313,40 @@ impl<F, const N: usize> Step<'_, F, N> {
     where
         F: Dynamics<f64, N, M>,
     {
-        let matrix = self.matrix_of_all(tableau, stages);
-        let size = matrix.nrows();
-        let right = DVector::from_fn(size, |k, _| residual.0[k / N][k % N]);
-        let solution = matrix.lu().solve(&right)?;
+        let factors = self.factors_of_all(tableau, stages)?;
+        let mut solution: Vec<f64> = residual.0[..tableau.stages()]
+            .iter()
+            .flat_map(|stage| stage.iter().copied())
+            .collect();
+        factors.solve(&mut solution);
         Some(Stages::each(tableau, |i| {
             Vector::from_fn(|k, _| solution[i * N + k])
         }))
     }
 
-    /// I − τ aᵢⱼ Jⱼ, with the Jacobian of each stage.
-    pub(super) fn matrix_of_all<const M: usize>(
+    /// Those of I − τ aᵢⱼ Jⱼ, with the Jacobian of each stage.
+    pub(super) fn factors_of_all<const M: usize>(
         &self,
         tableau: &Tableau,
         stages: &Stages<N>,
-    ) -> DMatrix<f64>
+    ) -> Option<Factors<f64>>
     where
         F: Dynamics<f64, N, M>,
     {
         let size = tableau.stages() * N;
-        let mut matrix = DMatrix::identity(size, size);
+        let mut matrix = Vec::with_capacity(size * size);
         for (j, &c) in tableau.c.iter().enumerate() {
             let t = self.t0 + c * self.tau;
             let jacobian = self.dynamics.jacobian(t, &(self.x0 + stages.0[j]));
-            for (i, row) in tableau.a.iter().enumerate() {
-                let mut block = matrix.view_mut((i * N, j * N), (N, N));
-                block -= jacobian * (self.tau * row[j]);
+            for part in jacobian.column_iter() {
+                for row in tableau.a {
+                    let factor = -self.tau * row[j];
+                    matrix.extend(part.iter().map(|entry| factor * entry));
+                }
+                let column = matrix.len() / size - 1;
+                matrix[column * size + column] += 1.0;
             }
         }
-        matrix
+        Factors::new(size, matrix)
     }
 }

@@ -1,11 +1,10 @@
 //! The derivatives of Runge–Kutta steps.
 
-use nalgebra::DMatrix;
-
 use super::super::map::Step;
 use super::implicit::Prepared;
 use super::stages::Stages;
 use super::tableau::{MOST_STAGES, Tableau};
+use crate::arithmetic::factors::Factors;
 use crate::arithmetic::{Scalar, Vector};
 use crate::contract::Dynamics;
 use crate::method::Statistics;
@@ -29,21 +28,22 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
             }
             fields
         } else {
-            let (solved, inverse) = self.solved(tableau)?;
+            let (solved, factors) = self.solved(tableau)?;
             for (stage, solved) in stages.iter_mut().zip(&solved.0) {
                 *stage = solved.map(S::from_f64);
             }
             for _ in 0..S::DERIVATIVES {
                 let fields = self.fields(tableau, &stages);
-                let residual: Each<S, N> = std::array::from_fn(|i| match tableau.a.get(i) {
-                    Some(row) => difference(&self.weighted(row, &fields), &stages[i]),
-                    None => zero(),
-                });
-                for k in 0..inverse.nrows() {
-                    for j in 0..inverse.ncols() {
-                        let entry = S::from_f64(inverse[(k, j)]) * residual[j / N][j % N];
-                        stages[k / N][k % N] += entry;
-                    }
+                let stages = &mut stages[..tableau.stages()];
+                let mut residual = Vec::with_capacity(tableau.stages() * N);
+                for (row, stage) in tableau.a.iter().zip(&*stages) {
+                    let right = self.weighted(row, &fields);
+                    residual.extend((0..N).map(|i| right[i] - stage[i]));
+                }
+                factors.solve_over(&mut residual, S::from_f64);
+                let entries = stages.iter_mut().flat_map(|stage| stage.iter_mut());
+                for (entry, correction) in entries.zip(residual) {
+                    *entry += correction;
                 }
             }
             self.fields(tableau, &stages)
@@ -51,8 +51,8 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
         Some(self.weighted(tableau.b, &fields))
     }
 
-    /// The stages over doubles, and (I − τ aᵢⱼ Jⱼ)⁻¹.
-    fn solved<const M: usize>(&self, tableau: &Tableau) -> Option<(Stages<N>, DMatrix<f64>)>
+    /// The stages over doubles, and the factors of I − τ aᵢⱼ Jⱼ.
+    fn solved<const M: usize>(&self, tableau: &Tableau) -> Option<(Stages<N>, Factors<f64>)>
     where
         D: Dynamics<S, N, M>,
     {
@@ -68,8 +68,8 @@ impl<D, S: Scalar, const N: usize> Variation<'_, D, S, N> {
         let predicted = Stages::on_tangent(tableau, &step);
         let stages = step.stages(tableau, predicted, &mut prepared, &mut statistics);
         let stages = stages.ok()?;
-        let inverse = step.matrix_of_all(tableau, &stages).try_inverse()?;
-        Some((stages, inverse))
+        let factors = step.factors_of_all(tableau, &stages)?;
+        Some((stages, factors))
     }
 
     /// f at a stage.
@@ -108,8 +108,4 @@ fn zero<S: Scalar, const N: usize>() -> Vector<S, N> {
 
 fn zeros<S: Scalar, const N: usize>() -> Each<S, N> {
     std::array::from_fn(|_| zero())
-}
-
-fn difference<S: Scalar, const N: usize>(a: &Vector<S, N>, b: &Vector<S, N>) -> Vector<S, N> {
-    Vector::from_fn(|i, _| a[i] - b[i])
 }
