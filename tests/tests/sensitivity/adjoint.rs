@@ -71,7 +71,6 @@ fn they_are_the_rows_of_sensitivities() -> Result<(), Failure> {
     assert_gradients("Taylor", Taylor::tolerance(1e-12))?;
     assert_gradients("best", Best::tolerance(1e-12))?;
     assert_gradients("symmetric", Symmetric::step_size(0.05))?;
-    assert_gradients("composed", Composed::<6>::step_size(0.1))?;
     assert_gradients("by tolerance", Composed::<8>::tolerance(1e-9))?;
     assert_gradients("Heun", RungeKutta::explicit::<3>().step_size(0.05))?;
     assert_gradients("Gauss", RungeKutta::gauss_legendre::<3>().step_size(0.1))?;

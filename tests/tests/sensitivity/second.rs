@@ -2,8 +2,7 @@
 
 use dmm_runtime::nalgebra::DMatrix;
 use dmm_runtime::{
-    Best, Composed, Integrator, Method, RungeKutta, SecondSensitivities, Sensitivity, Symmetric,
-    Taylor,
+    Integrator, Method, RungeKutta, SecondSensitivities, Sensitivity, Symmetric, Taylor,
 };
 
 use super::Failure;
@@ -91,14 +90,9 @@ fn assert_second<Met: Method + 'static>(name: &str, method: Met) -> Result<(), F
 #[test]
 fn they_are_the_derivatives_of_the_first() -> Result<(), Failure> {
     assert_second("Taylor", Taylor::tolerance(1e-14))?;
-    assert_second("best", Best::tolerance(1e-14))?;
     assert_second(
         "symmetric",
         Symmetric::step_size(0.1).level_correction(false),
-    )?;
-    assert_second(
-        "composed",
-        Composed::<4>::step_size(0.25).level_correction(false),
     )?;
     for (name, method) in [
         ("Heun", RungeKutta::explicit::<3>()),
