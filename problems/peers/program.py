@@ -26,11 +26,11 @@ class Program:
         """The names of the integrators that take a tolerance."""
         return [scheme["name"] for scheme in self.ask("schemes") if scheme["adaptive"]]
 
-    def integrator(self, problem, scheme, tolerance):
+    def integrator(self, problem, scheme, value, control="tolerance"):
         """A function of an end time and a number of repeats that gives a run."""
 
         def run(t_end, repeats):
-            words = (problem, scheme, f"tolerance={tolerance!r}", repr(t_end), repeats)
+            words = (problem, scheme, f"{control}={value!r}", repr(t_end), repeats)
             answer = self.ask("run", *words)
             return answer["seconds"], answer["x"], answer["transitions"], answer["steps"]
 

@@ -2,7 +2,10 @@
 //! program, its studies and its measurements.
 
 use dmm_runtime::dynamic::{InitialValue, MethodChoice, MethodVisitor, OutputTimes};
-use dmm_runtime::{Best, Composed, Locator, NewtonLocator, RungeKutta, Symmetric, Taylor, Uniform};
+use dmm_runtime::{
+    Adaptive, Best, Composed, EmbeddedRungeKutta, ErrorEstimate, Locator, NewtonLocator,
+    RungeKutta, Symmetric, Taylor, Uniform,
+};
 
 use crate::perturbed::Perturbed;
 
@@ -64,12 +67,17 @@ macro_rules! methods {
             #[doc = $other_doc:literal]
             $other:ident, $other_name:literal, $other_control:expr, $other_scheme:expr;
         )+ }
+        embedded { $(
+            #[doc = $pair_doc:literal]
+            $pair:ident, $pair_name:literal, $pair_scheme:expr;
+        )+ }
     ) => {
         /// The scheme of a run.
         #[derive(Clone, Copy, PartialEq, Debug)]
         pub enum MethodName {
             $(#[doc = $doc] $variant,)+
             $(#[doc = $other_doc] $other,)+
+            $(#[doc = $pair_doc] $pair,)+
             /// The scheme of order 2 with every crossing located too late.
             Perturbed(Perturbed),
         }
@@ -79,6 +87,8 @@ macro_rules! methods {
             pub const CONSERVING: &'static [Self] = &[$(Self::$variant),+];
             /// Runge–Kutta methods, which conserve by the correction of the level alone.
             pub const RUNGE_KUTTA: &'static [Self] = &[$(Self::$other),+];
+            /// Runge–Kutta methods in steps by an estimate of their error.
+            pub const EMBEDDED: &'static [Self] = &[$(Self::$pair),+];
 
             /// Its name on the command line. A scheme of uniform steps and its form with steps
             /// by a tolerance have the same.
@@ -86,6 +96,7 @@ macro_rules! methods {
                 match self {
                     $(Self::$variant => $name,)+
                     $(Self::$other => $other_name,)+
+                    $(Self::$pair => $pair_name,)+
                     Self::Perturbed(_) => "perturbed",
                 }
             }
@@ -95,6 +106,7 @@ macro_rules! methods {
                 match self {
                     $(Self::$variant => $doc,)+
                     $(Self::$other => $other_doc,)+
+                    $(Self::$pair => $pair_doc,)+
                     Self::Perturbed(_) => "crossings located too late",
                 }
                 .trim()
@@ -105,6 +117,7 @@ macro_rules! methods {
                 match self {
                     $(Self::$variant => $control,)+
                     $(Self::$other => $other_control,)+
+                    $(Self::$pair => TOLERANCE,)+
                     Self::Perturbed(_) => order(2),
                 }
             }
@@ -123,6 +136,7 @@ macro_rules! methods {
                 match self.method {
                     $(MethodName::$variant => visitor.visit(apply(self, $scheme)),)+
                     $(MethodName::$other => visitor.visit(runge_kutta(self, $other_scheme)),)+
+                    $(MethodName::$pair => visitor.visit(embedded(self, $pair_scheme)),)+
                     MethodName::Perturbed(late) => visitor.visit(symmetric(self, late)),
                 }
             }
@@ -202,6 +216,14 @@ methods! {
         /// Lobatto IIIC of four stages, order 6
         LobattoIiic4, "lobatto-iiic-4", order(6), RungeKutta::lobatto_iiic::<4>();
     }
+    embedded {
+        /// the pair of orders 5 and 4 of Dormand and Prince, steps by a tolerance
+        DormandPrince5Adaptive, "dormand-prince-5", EmbeddedRungeKutta::dormand_prince();
+        /// Radau IIA of three stages, steps by a tolerance
+        RadauIia3Adaptive, "radau-iia-3", EmbeddedRungeKutta::radau_iia::<3>();
+        /// Radau IIA of five stages, steps by a tolerance
+        RadauIia5Adaptive, "radau-iia-5", EmbeddedRungeKutta::radau_iia::<5>();
+    }
 }
 
 /// Helps the compiler to see what a closure takes.
@@ -221,10 +243,19 @@ fn runge_kutta(run: &Run, method: RungeKutta) -> Uniform<RungeKutta> {
     (method.step_size(run.step_size)).level_correction(run.level_correction)
 }
 
+/// A Runge–Kutta method with an error estimate: one type for all of them, compiled once.
+fn embedded(
+    run: &Run,
+    method: EmbeddedRungeKutta,
+) -> Adaptive<EmbeddedRungeKutta, NewtonLocator, ErrorEstimate> {
+    (method.tolerance(run.tolerance)).level_correction(run.level_correction)
+}
+
 impl MethodName {
     /// Every scheme that has a name on the command line.
     pub fn all() -> impl Iterator<Item = Self> {
-        Self::CONSERVING.iter().chain(Self::RUNGE_KUTTA).copied()
+        let families = [Self::CONSERVING, Self::RUNGE_KUTTA, Self::EMBEDDED];
+        families.into_iter().flatten().copied()
     }
 
     /// The schemes that ensembles are integrated by.

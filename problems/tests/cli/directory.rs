@@ -133,6 +133,11 @@ fn help_lists_what_is_accepted() {
             assert!(help.contains(&format!("- {scheme}")), "{command}: {help}");
         }
     }
+    let help = said(&["run", "--help"]);
+    for (scheme, also) in [("radau-iia-3", true), ("radau-iia-4", false)] {
+        let line = help.lines().find(|line| line.contains(scheme)).unwrap();
+        assert_eq!(line.contains("with `--tolerance`"), also, "{line}");
+    }
     // none that it would refuse
     assert!(!said(&["ensemble", "--help"]).contains("- composed-4"));
     let help = said(&["stress", "--help"]);

@@ -119,6 +119,34 @@ fn a_scheme_that_chooses_its_steps_is_written_at_even_times() {
     assert!((x - (0.5f64.cos() + 0.5f64.sin())).abs() < 1e-9, "{x}");
 }
 
+/// Van der Pol's oscillator, ε = 10⁻⁶.
+const VAN_DER_POL: &str = "
+pub system VanDerPol {
+    state x, y;
+    der(x) = y;
+    der(y) = ((1 - x^2) * y - x) / 1e-6;
+}
+";
+
+#[test]
+fn a_stiff_system_of_a_file_runs_by_embedded_methods() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("van_der_pol.pws");
+    fs::write(&path, VAN_DER_POL).unwrap();
+    let file = path.to_str().unwrap();
+    for scheme in ["radau-iia-3", "radau-iia-5"] {
+        let results = Results::new();
+        let problem = ["run", file, "--initial", "x=2", "--end", "2"];
+        let scheme_options = ["--scheme", scheme, "--tolerance", "1e-8", "--step", "0.5"];
+        let text = results.said(&[&problem[..], &scheme_options].concat());
+        let by = format!("by {scheme} with tolerance 1e-8");
+        assert!(text.contains(&by), "{text}");
+        let (_, points) = results.table("points.csv");
+        let x: f64 = points.last().unwrap()[2].parse().unwrap();
+        assert!((x - 1.706_167_732_170_483).abs() < 1e-7, "{scheme}: {x}");
+    }
+}
+
 #[test]
 fn the_level_is_left_to_rounding_on_request() {
     let errors = |options: &[&str]| {

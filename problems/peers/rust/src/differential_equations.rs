@@ -106,8 +106,15 @@ pub fn rkv989e<Sys: System<N>, const N: usize>(
     };
     let equations = Equations(sides);
     let mut method = method(tolerance);
-    let solution = solve_ode(&mut method, &equations, 0.0, t_end, &initial, &mut crossings)
-        .map_err(|error| format!("{error:?}"))?;
+    let solution = solve_ode(
+        &mut method,
+        &equations,
+        0.0,
+        t_end,
+        &initial,
+        &mut crossings,
+    )
+    .map_err(|error| format!("{error:?}"))?;
     Ok(End {
         x: crossings.x,
         steps: solution.steps.accepted as u64,

@@ -65,13 +65,16 @@ fn run(problem: &str, peer: &str, tolerance: &str, t_end: &str, repeats: &str) -
         "harmonic" => task.timed(Harmonic::default(), &harmonic::DESCRIPTION),
         "elliptic" => task.timed(Elliptic::default(), &elliptic::DESCRIPTION),
         "pendulum" => task.timed(Pendulum::default(), &pendulum::DESCRIPTION),
-        "lotka_volterra_periodic" => {
-            task.timed(LotkaVolterra::default(), &lotka_volterra_periodic::DESCRIPTION)
-        }
+        "lotka_volterra_periodic" => task.timed(
+            LotkaVolterra::default(),
+            &lotka_volterra_periodic::DESCRIPTION,
+        ),
         "damped" => task.timed(Damped::default(), &damped::DESCRIPTION),
         "spiral" => task.timed(Spiral::default(), &spiral::DESCRIPTION),
         "rigid_body" => task.timed(RigidBody::default(), &rigid_body::DESCRIPTION),
-        "kepler_refraction" => task.timed(KeplerRefraction::default(), &kepler_refraction::DESCRIPTION),
+        "kepler_refraction" => {
+            task.timed(KeplerRefraction::default(), &kepler_refraction::DESCRIPTION)
+        }
         _ => Err(format!("no problem `{problem}` here").into()),
     }
 }
@@ -84,12 +87,16 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    fn timed<Sys: System<N>, const N: usize>(&self, system: Sys, description: &Description) -> Outcome<Value> {
+    fn timed<Sys: System<N>, const N: usize>(
+        &self,
+        system: Sys,
+        description: &Description,
+    ) -> Outcome<Value> {
         let initial: [f64; N] = description.initial.try_into()?;
         let mut seconds = Vec::new();
         let mut last = None;
         for _ in 0..self.repeats.max(1) {
-            let sides = Sides::new(&system, &initial);
+            let sides = Sides::new(&system, &initial)?;
             let start = ThreadTime::now();
             let end = match self.peer {
                 "diffsol-tsit45" => diffsol::tsit45(&sides, initial, self.t_end, self.tolerance)?,

@@ -3,7 +3,9 @@
 
 use std::cell::Cell;
 
-use dmm_runtime::{Guards, Dynamics, DynamicsVisitor, System, Vector};
+use dmm_runtime::{Dynamics, DynamicsVisitor, Guards, Side, System, Vector};
+
+use crate::Outcome;
 
 pub struct Sides<'a, Sys: System<N>, const N: usize> {
     system: &'a Sys,
@@ -41,14 +43,14 @@ impl<const N: usize> DynamicsVisitor<N> for Switching<'_, N> {
 
 impl<'a, Sys: System<N>, const N: usize> Sides<'a, Sys, N> {
     /// From `initial` at t = 0, which is not on the interface.
-    pub fn new(system: &'a Sys, initial: &[f64; N]) -> Self {
+    pub fn new(system: &'a Sys, initial: &[f64; N]) -> Outcome<Self> {
         let sides = Self {
             system,
-            region: Cell::new(Sys::REGIONS[0]),
+            region: Cell::new(system.region(0).ok_or("no region")?),
             sign: Cell::new(1.0),
         };
         sides.go_to(sides.switching(0.0, initial).signum());
-        sides
+        Ok(sides)
     }
 
     /// The side that the solution is on: the sign of g.

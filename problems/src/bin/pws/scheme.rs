@@ -50,12 +50,21 @@ pub(crate) fn uniform_names() -> PossibleValuesParser {
 }
 
 fn parser(methods: impl Iterator<Item = MethodName>) -> PossibleValuesParser {
+    let methods: Vec<MethodName> = methods.collect();
+    let named = |name| methods.iter().filter(move |method| method.name() == name);
     let mut values: Vec<PossibleValue> = Vec::new();
-    for method in methods {
-        // the form with steps by a tolerance has the same name
-        if !values.iter().any(|value| value.get_name() == method.name()) {
-            values.push(PossibleValue::new(method.name()).help(method.summary()));
+    for method in &methods {
+        let name = method.name();
+        if values.iter().any(|value| value.get_name() == name) {
+            continue;
         }
+        // the form with steps by a tolerance has the same name
+        let help = if named(name).count() > 1 {
+            format!("{}; with `--tolerance`, steps by it", method.summary())
+        } else {
+            method.summary().to_owned()
+        };
+        values.push(PossibleValue::new(name).help(help));
     }
     PossibleValuesParser::new(values)
 }

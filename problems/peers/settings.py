@@ -1,0 +1,54 @@
+"""Settings of integrators: what they take and reach, the fastest one for an error, and pairs of
+runs of two in turn."""
+
+import math
+import statistics
+
+# seconds and runs that a setting is tried for, and pairs of runs of a comparison
+TRIAL, LEAST_TRIALS, PAIRS = 0.02, 3, 25
+# tighter tolerances of one that takes longer are not tried: low orders take hours
+LONGEST = 0.5
+# a run this long is repeated in its turn, because the first after a pause is slower
+QUICK, REPEATS = 0.01, 3
+
+
+class Setting:
+    """An integrator at a tolerance on a problem: what it takes and reaches."""
+
+    def __init__(self, who, tolerance, run, sample, a_run=0.0, a_crossing=0.0):
+        self.who, self.tolerance, self.function, self.t_end = who, tolerance, run, sample["t"]
+        first, x, crossings, self.steps = run(self.t_end, 1)
+        self.error = math.dist(x, sample["x"]) if crossings == sample["crossings"] else math.inf
+        # what is not the integrator's own
+        self.overhead = a_run + a_crossing * crossings
+        trials = LEAST_TRIALS + min(50, int(TRIAL / first[0]))
+        self.seconds = min(run(self.t_end, trials)[0])
+
+    @property
+    def net(self):
+        return self.seconds - self.overhead
+
+    def turn(self):
+        repeats = REPEATS if self.seconds < QUICK else 1
+        return statistics.median(self.function(self.t_end, repeats)[0])
+
+
+def chosen(settings, level):
+    """The fastest setting that reaches a level, or the most accurate one if none does."""
+    reliable = []
+    for who in dict.fromkeys(setting.who for setting in settings):
+        own = [setting for setting in settings if setting.who == who]
+        for setting, tighter in zip(own, own[1:] + own[-1:]):
+            if max(setting.error, tighter.error) <= level:
+                reliable.append(setting)
+    fastest = min(reliable, key=lambda setting: setting.net, default=None)
+    return fastest or min(settings, key=lambda setting: setting.error)
+
+
+def duel(ours, peer):
+    """Pairs of times, in turn."""
+    return [(ours.turn(), peer.turn()) for _ in range(PAIRS)]
+
+
+def spread(values):
+    return min(values), statistics.median(values), max(values)
