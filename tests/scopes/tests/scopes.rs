@@ -244,6 +244,51 @@ mod hostile {
     }
 }
 
+/// Systems with the names of what generated code is generic over.
+mod short {
+    use ode::pws;
+
+    pws! {
+        pub(super) system P {
+            state x, y;
+            interface level = y;
+            der(x) = y;
+            region above where level > 0 { der(y) = -sin(x); }
+            region below where level < 0 { der(y) = -3*x; }
+        }
+    }
+
+    pws! {
+        pub(super) system K { state x; der(x) = -x^2; }
+    }
+
+    pws! {
+        pub(super) system S { state x; der(x) = exp(-x); }
+    }
+}
+
+#[test]
+fn a_system_may_have_any_name() {
+    use ode::{Integrator, Taylor};
+
+    let rotated = Integrator::new(&short::P {}, Taylor::tolerance(1e-12))
+        .initial(0.0, [1.0, 0.0])
+        .run_until(2.0)
+        .unwrap();
+    assert_eq!(rotated.transitions()[0].to, short::PRegion::Below);
+    // 1/(1 + t) and ln(1 + t)
+    let fallen = Integrator::new(&short::K {}, Taylor::tolerance(1e-14))
+        .initial(0.0, [1.0])
+        .run_until(1.0)
+        .unwrap();
+    assert!((fallen.last().unwrap().x[0] - 0.5).abs() < 1e-14);
+    let risen = Integrator::new(&short::S {}, Taylor::tolerance(1e-14))
+        .initial(0.0, [0.0])
+        .run_until(1.0)
+        .unwrap();
+    assert!((risen.last().unwrap().x[0] - 2.0_f64.ln()).abs() < 1e-14);
+}
+
 #[test]
 fn names_around_a_declaration_change_nothing() {
     use ode::{Integrator, Symmetric, System, Taylor};

@@ -80,7 +80,7 @@ fn implementation(
     let methods: TokenStream = functions
         .filter_map(|function| method(scope, function, conserved))
         .collect();
-    let series = advance(scope, &program.series);
+    let series = advance(emission, scope, &program.series);
     let (states, conserved) = (paths::count(scope.states), paths::count(conserved));
     let [dynamics, bound, solvability] = ["Dynamics", "Scalar", "Solvability"].map(paths::support);
     let kind = match scheme.solvability {
@@ -133,7 +133,12 @@ fn affine_quantities(affine: &[bool]) -> TokenStream {
 }
 
 /// The recurrences of the Taylor coefficients of the solution.
-fn advance(scope: &Scope<'_>, program: &Series) -> TokenStream {
+fn advance(emission: &Emission<'_>, scope: &Scope<'_>, program: &Series) -> TokenStream {
+    let Emission {
+        order,
+        coefficients: count,
+        ..
+    } = emission;
     let (scalar, slots) = (scope.scalar, paths::count(program.slots));
     let unrolled = series::unrolled(program);
     let body = series::body(scope, program, States::Own, |index, value| {
@@ -141,18 +146,18 @@ fn advance(scope: &Scope<'_>, program: &Series) -> TokenStream {
         quote!(series[#place][at + 1] = #value;)
     });
     quote! {
-        type Series<const P: usize> = [[#scalar; P]; #slots];
+        type Series<const #count: usize> = [[#scalar; #count]; #slots];
         type Unrolled = #unrolled;
         /// No coefficients yet.
         #[inline]
-        fn series<const P: usize>(&self) -> Self::Series<P> {
-            [[#scalar::from_f64(0.0); P]; #slots]
+        fn series<const #count: usize>(&self) -> Self::Series<#count> {
+            [[#scalar::from_f64(0.0); #count]; #slots]
         }
         /// The coefficients of order k + 1 of the solution, and those of order k of what it is
         /// made from.
         #[inline(always)]
-        fn advance<K: dmm::series::Order, const P: usize>(
-            &self, k: K, t: #scalar, series: &mut Self::Series<P>
+        fn advance<#order: dmm::series::Order, const #count: usize>(
+            &self, k: #order, t: #scalar, series: &mut Self::Series<#count>
         ) {
             #body
         }

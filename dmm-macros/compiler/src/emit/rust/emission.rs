@@ -16,6 +16,9 @@ pub(super) struct Emission<'a> {
     pub scalar: Ident,
     /// That of other scalars.
     pub other: Ident,
+    /// The generic order of a coefficient, and the constant number of coefficients.
+    pub order: Ident,
+    pub coefficients: Ident,
     /// The enumeration of the regions.
     pub region: Ident,
     /// Its variants, by region.
@@ -45,6 +48,8 @@ impl<'a> Emission<'a> {
             program,
             scalar: types.take("S"),
             other: types.take("Other"),
+            order: types.take("K"),
+            coefficients: types.take("P"),
             region,
             variants: camel.iter().map(|name| variants.take(name)).collect(),
             dynamics_of: camel

@@ -82,7 +82,7 @@ fn implementation(
         oriented: &program.oriented,
     };
     let functions = functions(scope, program, &turns);
-    let series = advance(scope, program, &turns);
+    let series = advance(emission, scope, program, &turns);
     let (orientation, orient) = turns.orient(&vector, &quote!(#states));
     let other = &emission.other;
     let fields = scope.store.converted(scalar, other);
@@ -276,7 +276,17 @@ impl Turns<'_> {
 }
 
 /// The recurrences of the Taylor coefficients of every g.
-fn advance(scope: &Scope<'_>, program: &Guards, turns: &Turns<'_>) -> TokenStream {
+fn advance(
+    emission: &Emission<'_>,
+    scope: &Scope<'_>,
+    program: &Guards,
+    turns: &Turns<'_>,
+) -> TokenStream {
+    let Emission {
+        order,
+        coefficients: count,
+        ..
+    } = emission;
     let (scalar, slots) = (scope.scalar, paths::count(program.series.slots));
     let unrolled = series::unrolled(&program.series);
     let body = series::body(scope, &program.series, States::Given, |index, value| {
@@ -287,17 +297,17 @@ fn advance(scope: &Scope<'_>, program: &Guards, turns: &Turns<'_>) -> TokenStrea
         }
     });
     quote! {
-        type Series<const P: usize> = [[#scalar; P]; #slots];
+        type Series<const #count: usize> = [[#scalar; #count]; #slots];
         type Unrolled = #unrolled;
         /// No coefficients yet.
         #[inline]
-        fn series<const P: usize>(&self) -> Self::Series<P> {
-            [[#scalar::from_f64(0.0); P]; #slots]
+        fn series<const #count: usize>(&self) -> Self::Series<#count> {
+            [[#scalar::from_f64(0.0); #count]; #slots]
         }
         /// The coefficients of order k of every g along the series of the states.
         #[inline(always)]
-        fn advance<K: dmm::series::Order, const P: usize>(
-            &self, k: K, t: #scalar, states: &[[#scalar; P]], series: &mut Self::Series<P>
+        fn advance<#order: dmm::series::Order, const #count: usize>(
+            &self, k: #order, t: #scalar, states: &[[#scalar; #count]], series: &mut Self::Series<#count>
         ) {
             #body
         }

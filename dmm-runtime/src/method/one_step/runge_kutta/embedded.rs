@@ -29,10 +29,9 @@ use crate::method::{Statistics, StepFailure, Variation};
 /// ACM Trans. Math. Softw. 20, 1994). A step fails as those of [`RungeKutta`] do, after it was made
 /// shorter in vain.
 ///
-/// The stages of Radau IIA are solved for until what is left is a rounding error of the largest size
-/// of each component, whatever the tolerance is, so that steps end where the same step ends that is
-/// made to an output or to a crossing. A Jacobian is kept from step to step as long as the
-/// iteration converges fast. A step in which it does not converge is made shorter.
+/// The stages of Radau IIA are solved for until what is left is 10⁻⁴ of the tolerance; those of a step to
+/// an output or to a crossing are solved for to rounding. A Jacobian is kept from step to step as
+/// long as the iteration converges fast. A step in which it does not converge is made shorter.
 ///
 /// Interfaces are looked for on the dense output: for Radau IIA the polynomial of degree s through
 /// the stages; for Dormand & Prince the polynomial of order 4 (Hairer, Nørsett & Wanner, the same I,

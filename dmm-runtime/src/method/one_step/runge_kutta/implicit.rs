@@ -46,9 +46,9 @@ const SAME: f64 = 1e-9;
 pub(super) enum Against<'a, const N: usize> {
     /// The stages: to the rounding errors of the increment.
     Stages,
-    /// These sizes of the components, or the stages where they are larger: to the rounding errors of
-    /// the state, in a step that may be made shorter instead.
-    Sizes(&'a Vector<f64, N>),
+    /// These sizes of the components, or the stages where they are larger: to this part of them, in a
+    /// step that may be made shorter instead.
+    Sizes(&'a Vector<f64, N>, f64),
 }
 
 /// The matrices I − τ/λₖ J of a step size, factored.
@@ -207,9 +207,9 @@ impl<F, const N: usize> Step<'_, F, N> {
     {
         let mut is_new = prepared.fit(tableau, self, &stages)?;
         let mut before = f64::INFINITY;
-        let most = match against {
-            Against::Stages => MOST_ITERATIONS,
-            Against::Sizes(_) => FEW_ITERATIONS,
+        let (most, converged) = match against {
+            Against::Stages => (MOST_ITERATIONS, CONVERGED),
+            Against::Sizes(_, part) => (FEW_ITERATIONS, part.max(CONVERGED)),
         };
         for _ in 0..most {
             let residual = stages.residual(tableau, self);
@@ -218,13 +218,13 @@ impl<F, const N: usize> Step<'_, F, N> {
             stages.add(&correction);
             let scale = match against {
                 Against::Stages => stages.sizes() + self.x0.abs() * SHARE_OF_STATE,
-                Against::Sizes(sizes) => stages.sizes().sup(sizes),
+                Against::Sizes(sizes, _) => stages.sizes().sup(sizes),
             };
             let size = correction.relative(&scale);
             let rate = size / before;
             // the corrections that follow add up to size·rate/(1 − rate)
             let is_known = before < f64::INFINITY;
-            if size <= CONVERGED || is_known && size * rate <= CONVERGED * (1.0 - rate) {
+            if size <= converged || is_known && size * rate <= converged * (1.0 - rate) {
                 if is_known && rate > FAST {
                     prepared.forget();
                 }
@@ -234,7 +234,7 @@ impl<F, const N: usize> Step<'_, F, N> {
                 return None;
             }
             if rate > SLOW {
-                if size <= NOISE && matches!(against, Against::Sizes(_)) {
+                if size <= NOISE && matches!(against, Against::Sizes(..)) {
                     return Some(stages);
                 }
                 let state = stages.sizes() + self.x0.abs();

@@ -104,7 +104,7 @@ fn results(
     keep: impl Fn(usize, &TokenStream) -> TokenStream,
 ) -> TokenStream {
     let scalar = writer.scope.scalar;
-    let step = quote!(dmm::series::step::<#scalar, K>(k));
+    let step = quote!(dmm::series::step::<#scalar, _>(k));
     let values: Vec<TokenStream> = (series.results.iter())
         .map(|result| match result {
             SeriesResult::Value(root) => writer.value(*root),
@@ -127,7 +127,7 @@ fn results(
                 None => keep(index, value),
                 Some(later) => quote! {
                     if at == 0 { series[#place][1] = #value; }
-                    if at + 2 < P { series[#place][at + 2] = #later; }
+                    if at + 2 < series[#place].len() { series[#place][at + 2] = #later; }
                 },
             }
         })

@@ -136,7 +136,7 @@ impl<'a, 'b> Writer<'a, 'b> {
     /// Coefficient k + 2 of a state.
     pub(super) fn a_step_later(&mut self, later: &Later, scale: &TokenStream) -> TokenStream {
         let scalar = self.scope.scalar;
-        let mut scale = product(scale, &quote!(dmm::series::next_step::<#scalar, K>(k)));
+        let mut scale = product(scale, &quote!(dmm::series::next_step::<#scalar, _>(k)));
         if let Some(factor) = later.factor {
             scale = self.multiplied(factor, &scale);
         }
