@@ -10,7 +10,8 @@
 //! There r is evaluated in pairs of doubles. Where ψ has no slope to speak of even r must not be
 //! amplified: there, for one quantity δx = −WΛᵀ r/(ΛWΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of
 //! several quantities each is damped in the direction that it adds to those before it, and the rows
-//! that count are those that [`MinimalNorm`] keeps in the discrete vector field.
+//! that count are those that [`MinimalNorm`] keeps in the discrete vector field. Where all rows are
+//! independent and none is damped, ΛWΛᵀ is solved by its factors, which is several times as fast.
 
 mod factors;
 mod guard_point;

@@ -79,7 +79,8 @@ fn total<S: Scalar>(mut parts: [S; WIDTH]) -> S {
     while count > 1 {
         count /= 2;
         for j in 0..count {
-            parts[j] = parts[j] + parts[j + count];
+            let other = parts[j + count];
+            parts[j] += other;
         }
     }
     parts[0]
