@@ -226,7 +226,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             let off = if corrects {
                 let (_, multiplier) = dynamics.multiplier(self.time.value, &self.state.x);
                 let residual = level.residual(dynamics, self.time, &self.state);
-                level.towards(&multiplier, &residual, &weights)
+                level.towards((&multiplier, dynamics.quantities()), &residual, &weights)
             } else {
                 none
             };

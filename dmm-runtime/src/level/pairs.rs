@@ -9,7 +9,7 @@ use crate::contract::{Dynamics, Guards, Vector};
 
 /// Of more states ψ has so many terms that their code in pairs of doubles is out of proportion:
 /// there ψ is evaluated in doubles, and the remainders enter by its slope.
-const MOST_IN_PAIRS: usize = 12;
+pub(super) const MOST_IN_PAIRS: usize = 12;
 
 /// ψ at the state and time with their remainders.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! The end of a step, put back on the level.
 
 use super::weights::COARSE;
-use super::{LITTLE, Level, Weights, remainder, row};
+use super::{Level, Weights, little, remainder, row};
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time};
@@ -43,7 +43,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         let row = row(&multiplier, 0);
         let weighted = weights.times(&row);
         let square = dot(&row, &weighted);
-        let steep = square.above(self.bound(LITTLE, weights)[0]);
+        let steep = square.above(self.bound(little(N), weights)[0]);
         let flat = steep.not().and(used);
         if !steep.and(used).any() {
             return self.reached_by_steps(dynamics, time, state, (weights, flat));

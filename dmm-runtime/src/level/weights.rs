@@ -53,10 +53,38 @@ impl<const N: usize, S: Masked> Weights<N, S> {
         }
     }
 
+    /// wᵢ²
+    #[inline(always)]
+    pub(super) fn of(&self, i: usize) -> S {
+        self.squares[i]
+    }
+
     /// wᵢ² Λᵢ
     #[inline(always)]
     pub(super) fn times(&self, row: &Vector<S, N>) -> Vector<S, N> {
         vector(|i| row[i] * self.squares[i])
+    }
+
+    /// The displacement that takes the residual of `count` quantities off, and where Λ is steep beyond
+    /// a `bound`.
+    #[inline(always)]
+    pub(super) fn solved<const M: usize>(
+        &self,
+        (multiplier, count): (&Matrix<S, M, N>, usize),
+        residual: &Vector<S, M>,
+        bound: &Vector<S, M>,
+    ) -> (Vector<S, N>, S::Mask) {
+        let fast = self.by_factors((multiplier, count), residual, bound);
+        if fast.independent.all() {
+            return (fast.displacement, fast.steep);
+        }
+        let (slow, steep) = self.by_lane(multiplier, residual, bound, |projection, residual, _| {
+            projection.smallest(residual)
+        });
+        (
+            fast.independent.select_vector(&fast.displacement, &slow),
+            fast.steep.or(fast.independent.not().and(steep)),
+        )
     }
 
     /// The displacement that takes a residual off by Λ with column i times wᵢ, as `value` has it, and

@@ -9,6 +9,7 @@
 //! straight-line code, or a number. A number comes with a unit of time σ: the coefficients are
 //! those of (h/σ)ᵏ then.
 
+mod sums;
 #[cfg(test)]
 mod tests;
 mod unroll;
@@ -19,6 +20,10 @@ use crate::arithmetic::Scalar;
 
 /// The index k of a coefficient.
 pub trait Order: Copy {
+    /// Whether it is known at compile time: sums are written out then, and run by several terms at
+    /// once otherwise.
+    const IS_FIXED: bool;
+
     /// k
     fn get(self) -> usize;
 
@@ -34,6 +39,8 @@ pub trait Order: Copy {
 pub struct Fixed<const K: usize>;
 
 impl<const K: usize> Order for Fixed<K> {
+    const IS_FIXED: bool = true;
+
     #[inline(always)]
     fn get(self) -> usize {
         K
@@ -48,6 +55,8 @@ pub struct InUnits {
 }
 
 impl Order for InUnits {
+    const IS_FIXED: bool = false;
+
     #[inline(always)]
     fn get(self) -> usize {
         self.order
@@ -143,10 +152,143 @@ fn in_parts<S: Scalar>(j: usize, length: usize, sum: S) -> S {
     }
 }
 
+/// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k of several pairs of series: what the recurrences of order k take of the
+/// orders below.
+#[inline(always)]
+pub fn inner_sums<S: Scalar, K: Order, const P: usize, const B: usize>(
+    k: K,
+    pairs: [[&[S; P]; 2]; B],
+) -> [S; B] {
+    if !K::IS_FIXED {
+        let k = k.get().max(1);
+        return sums::together(pairs.map(|[a, b]| [&a[1..k], &b[1..k]]), k - 1);
+    }
+    let mut sums = [S::from_f64(0.0); B];
+    for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
+        *sum = inner(k, a, b);
+    }
+    sums
+}
+
+/// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2 of several series.
+#[inline(always)]
+pub fn half_sums<S: Scalar, K: Order, const P: usize, const B: usize>(
+    k: K,
+    series: [&[S; P]; B],
+) -> [S; B] {
+    let k = k.get().max(1);
+    let last = (k - 1) / 2;
+    if !K::IS_FIXED {
+        return sums::together(series.map(|u| [&u[1..=last], &u[k - last..k]]), last);
+    }
+    let mut sums = [S::from_f64(0.0); B];
+    for (sum, u) in sums.iter_mut().zip(series) {
+        for j in (1..=last).rev() {
+            *sum = u[j].fused(u[k - j], *sum);
+        }
+    }
+    sums
+}
+
+/// Coefficient k of uv from the [`inner_sums`] of u and v.
+#[inline(always)]
+pub fn product_from<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    u: &[S; P],
+    v: &[S; P],
+    sum: S,
+) -> S {
+    match k.get() {
+        0 => u[0] * v[0],
+        k => u[0].fused(v[k], u[k].fused(v[0], sum)),
+    }
+}
+
+/// Coefficient k of u² from the [`half_sums`] of u.
+#[inline(always)]
+pub fn square_from<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], sum: S) -> S {
+    match k.get() {
+        0 => u[0].squared(),
+        k => {
+            let sum = u[0].fused(u[k], sum);
+            if k.is_multiple_of(2) {
+                S::from_f64(2.0).fused(sum, u[k / 2].squared())
+            } else {
+                sum + sum
+            }
+        }
+    }
+}
+
+/// Coefficient k of u²/2 from the [`half_sums`] of u.
+#[inline(always)]
+pub fn half_square_from<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], sum: S) -> S {
+    let half = S::from_f64(0.5);
+    match k.get() {
+        0 => half * u[0].squared(),
+        k => {
+            let sum = u[0].fused(u[k], sum);
+            if k.is_multiple_of(2) {
+                (u[k / 2] * half).fused(u[k / 2], sum)
+            } else {
+                sum
+            }
+        }
+    }
+}
+
+/// Coefficient k of w = u/v from uₖ and the [`inner_sums`] of v and w; `inverse` is 1/v₀.
+#[inline(always)]
+pub fn quotient_from<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    u: S,
+    v: &[S; P],
+    w: &[S; P],
+    inverse: S,
+    sum: S,
+) -> S {
+    match k.get() {
+        0 => u * inverse,
+        k => (-v[k]).fused(w[0], u - sum) * inverse,
+    }
+}
+
+/// Coefficient k ≥ 1 of w = √u from uₖ and the [`half_sums`] of w; `inverse` is 1/(2w₀).
+#[inline(always)]
+pub fn square_root_from<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    u: S,
+    w: &[S; P],
+    inverse: S,
+    sum: S,
+) -> S {
+    let k = k.get();
+    let mut sum = sum + sum;
+    if k.is_multiple_of(2) {
+        sum = w[k / 2].fused(w[k / 2], sum);
+    }
+    (u - sum) * inverse
+}
+
+/// Coefficient k ≥ 1 of ∫ v du from d = h du/dh and the [`inner_sums`] of d and v.
+#[inline(always)]
+pub fn integral_from<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    d: &[S; P],
+    v: &[S; P],
+    sum: S,
+) -> S {
+    let k = k.get();
+    d[k].fused(v[0], sum) * inverse(k)
+}
+
 /// Coefficient k of uv. The newest coefficients enter last, so that the sum of the others need
 /// not wait for them.
 #[inline(always)]
 pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]) -> S {
+    if !K::IS_FIXED {
+        return product_from(k, u, v, inner(k, u, v));
+    }
     let k = k.get();
     let mut sum = if k.is_multiple_of(2) {
         u[k / 2] * v[k / 2]
@@ -163,6 +305,10 @@ pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]
 /// Coefficient k of u².
 #[inline(always)]
 pub fn square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
+    if !K::IS_FIXED {
+        let [sum] = half_sums(k, [u]);
+        return square_from(k, u, sum);
+    }
     let k = k.get();
     if k == 0 {
         return u[0].squared();
@@ -190,6 +336,10 @@ fn pairs<S: Scalar, const P: usize>(k: usize, u: &[S; P]) -> S {
 /// Coefficient k of u²/2.
 #[inline(always)]
 pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
+    if !K::IS_FIXED {
+        let [sum] = half_sums(k, [u]);
+        return half_square_from(k, u, sum);
+    }
     let k = k.get();
     if k == 0 {
         return S::from_f64(0.5) * u[0].squared();
@@ -207,7 +357,12 @@ pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
 
 /// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k
 #[inline(always)]
-fn inner<S: Scalar, const P: usize>(k: usize, a: &[S; P], b: &[S; P]) -> S {
+fn inner<S: Scalar, K: Order, const P: usize>(k: K, a: &[S; P], b: &[S; P]) -> S {
+    let k = k.get();
+    if !K::IS_FIXED {
+        let k = k.max(1);
+        return sums::turned(&a[1..k], &b[1..k]);
+    }
     let mut sum = S::from_f64(0.0);
     for j in 1..k {
         sum = a[j].fused(b[k - j], in_parts(j, 8, sum));
@@ -224,17 +379,16 @@ pub fn quotient<S: Scalar, K: Order, const P: usize>(
     w: &[S; P],
     inverse: S,
 ) -> S {
-    let k = k.get();
-    if k == 0 {
-        return u * inverse;
-    }
-    let rest = u - inner(k, v, w);
-    (-v[k]).fused(w[0], rest) * inverse
+    quotient_from(k, u, v, w, inverse, inner(k, v, w))
 }
 
 /// Coefficient k ≥ 1 of w = √u from uₖ; `inverse` is 1/(2w₀).
 #[inline(always)]
 pub fn square_root<S: Scalar, K: Order, const P: usize>(k: K, u: S, w: &[S; P], inverse: S) -> S {
+    if !K::IS_FIXED {
+        let [sum] = half_sums(k, [w]);
+        return square_root_from(k, u, w, inverse, sum);
+    }
     let k = k.get();
     let mut sum = S::from_f64(0.0);
     for j in 1..k.div_ceil(2) {
@@ -268,9 +422,7 @@ pub fn power<S: Scalar, K: Order, const P: usize>(
 /// Coefficient k ≥ 1 of ∫ v du from d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …
 #[inline(always)]
 pub fn integral<S: Scalar, K: Order, const P: usize>(k: K, d: &[S; P], v: &[S; P]) -> S {
-    let k = k.get();
-    let sum = inner(k, d, v);
-    d[k].fused(v[0], sum) * inverse(k)
+    integral_from(k, d, v, inner(k, d, v))
 }
 
 /// Coefficient k ≥ 1 of e = d/v from dₖ, where e₀ = 0 and `inverse` is 1/v₀: with
@@ -283,7 +435,7 @@ pub fn slope<S: Scalar, K: Order, const P: usize>(
     e: &[S; P],
     inverse: S,
 ) -> S {
-    (d - inner(k.get(), e, v)) * inverse
+    (d - inner(k, e, v)) * inverse
 }
 
 /// Coefficient k ≥ 1 of w from e = h dw/dh.

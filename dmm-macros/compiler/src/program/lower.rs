@@ -2,7 +2,8 @@
 //!
 //! Integer powers become chains of products (x³ = x²·x, x² shared), half-integer powers
 //! square roots, and factors that depend on parameters alone are brought together, so that
-//! their product is computed once before an integration. No form is chosen that rounds more often than the
+//! their product is computed once before an integration. Signs are moved outwards, so that a − b and
+//! b − a are one operation and (a − b)² is (b − a)². No form is chosen that rounds more often than the
 //! mathematics as written: u/3 stays a division, because 1/3 is not a double.
 
 use std::collections::{BTreeSet, HashMap};
@@ -154,14 +155,18 @@ impl Lowered {
             return self.constant(value);
         }
         match node {
-            Math::Mul([a, b]) => self.product(a, b),
-            Math::Div([a, b]) => self.quotient(a, b),
-            Math::Pow([a, b]) => self.power(a, b),
+            Math::Add([a, b]) => self.sum(a, b),
+            Math::Sub([a, b]) => self.difference(a, b),
+            Math::Neg(a) => self.negative(a),
+            Math::Mul([a, b]) => self.signed([a, b], Self::product),
+            Math::Div([a, b]) => self.signed([a, b], Self::quotient),
+            Math::Pow([a, b]) => self.signed_power(a, b),
+            Math::Call(function, a) => self.signed_call(function, a),
             node => self.insert(node),
         }
     }
 
-    fn insert(&mut self, node: Math) -> Id {
+    pub(super) fn insert(&mut self, node: Math) -> Id {
         let fixed = match &node {
             Math::Variable(name) => self.parameters.contains(name),
             node => node.all(|child| self.is_fixed(child)),
@@ -228,7 +233,7 @@ impl Lowered {
     }
 
     /// aᵇ
-    fn power(&mut self, a: Id, b: Id) -> Id {
+    pub(super) fn power(&mut self, a: Id, b: Id) -> Id {
         let Some(exponent) = self.dag.as_constant(b).cloned() else {
             return self.insert(Math::Pow([a, b]));
         };

@@ -27,6 +27,7 @@ mod metadata;
 pub mod optimise;
 mod results;
 pub mod series;
+mod signs;
 mod size;
 mod stored;
 

@@ -58,6 +58,11 @@ impl Dag {
         id
     }
 
+    /// `node` if it is there.
+    pub(crate) fn find(&self, node: &Math) -> Option<Id> {
+        self.memo.get(node).copied()
+    }
+
     /// Adds a commutative `node(a, b)`, sharing `node(b, a)` if that is there.
     fn insert_commutative(&mut self, node: fn([Id; 2]) -> Math, a: Id, b: Id) -> Id {
         if let Some(&id) = self.memo.get(&node([b, a])) {

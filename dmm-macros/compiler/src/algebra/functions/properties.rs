@@ -36,6 +36,18 @@ pub(crate) struct Properties {
     pub(crate) equation: Equation,
 }
 
+impl Properties {
+    /// Whether h(−u) = −h(u), or else h(−u) = h(u); nothing of other functions.
+    pub(crate) fn is_odd(&self) -> Option<bool> {
+        match self.form {
+            Form::Root | Form::Exponential | Form::Logarithm | Form::Complement(_) => None,
+            Form::Size | Form::Cardinal(_) => Some(false),
+            Form::Ratio(_) | Form::Arc | Form::CardinalPrime(_) => Some(true),
+            Form::Circular { is_odd } | Form::Hyperbolic { is_odd } => Some(is_odd),
+        }
+    }
+}
+
 /// How LaTeX writes a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Latex {

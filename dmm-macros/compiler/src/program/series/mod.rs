@@ -23,7 +23,7 @@ use super::function::Functions;
 use super::inputs::{Input, at_point, inputs};
 use super::lower::Lowered;
 use crate::algebra::{Id, Name};
-pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted};
+pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted, Sum};
 pub use scaled::{Factor, Later, Scaled};
 
 /// Straight-line code up to so many sums of products a coefficient; a loop beyond, which compiles
@@ -59,7 +59,7 @@ pub struct Series {
 pub enum Sums {
     /// Written out for every order.
     Straight,
-    /// By loops.
+    /// By loops, each over several sums.
     Rolled,
 }
 
@@ -88,7 +88,35 @@ pub enum SeriesResult {
     },
 }
 
+impl SeriesResult {
+    /// The sums that it takes of the orders below, beside those of recurrences.
+    fn sums(&self) -> impl Iterator<Item = Sum> {
+        let (value, later) = match self {
+            Self::Value(_) => (None, None),
+            Self::Solution { value, later } => (value.sum(), later.as_ref()),
+        };
+        value
+            .into_iter()
+            .chain(later.and_then(|later| later.value.sum()))
+    }
+}
+
 impl Series {
+    /// The sums that are run together, each once: none where they are written out.
+    pub fn joint_sums(&self) -> Vec<Sum> {
+        let mut sums = Vec::new();
+        if self.sums == Sums::Rolled {
+            let of_nodes = self.coefficients.iter();
+            let of_nodes = of_nodes.flat_map(|one| one.recurrence.sums());
+            for sum in of_nodes.chain(self.results.iter().flat_map(SeriesResult::sums)) {
+                if !sums.contains(&sum) {
+                    sums.push(sum);
+                }
+            }
+        }
+        sums
+    }
+
     /// The recurrences of the solution of ẋ = f(t, x).
     pub(super) fn of_solution(functions: &Functions, states: &[Name], field: &[Id]) -> Self {
         let parts = Parts::new(functions, states, field, states.len());

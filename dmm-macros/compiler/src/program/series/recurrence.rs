@@ -4,7 +4,7 @@
 use crate::algebra::{Function, Id};
 
 /// Where the coefficients of a series are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Place {
     /// Those of a state, by its number.
     State(usize),
@@ -129,6 +129,37 @@ pub enum Recurrence {
     },
     /// An operation that has no recurrence here.
     Missing,
+}
+
+/// A sum over coefficients of orders 1 to k − 1: what a recurrence takes of the orders below, which is
+/// known before anything of order k is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sum {
+    /// Σ uⱼ vₖ₋ⱼ over 1 ≤ j < k
+    Inner([Place; 2]),
+    /// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2
+    Half(Place),
+}
+
+impl Recurrence {
+    /// The sums of those that are nothing but sums; of the others, nothing.
+    pub fn sums(&self) -> Vec<Sum> {
+        match *self {
+            Self::Square(of) => vec![Sum::Half(of)],
+            Self::Product(of) => vec![Sum::Inner(of)],
+            Self::Quotient {
+                denominator, own, ..
+            } => vec![Sum::Inner([denominator, own])],
+            Self::SquareRoot { own, .. } => vec![Sum::Half(own)],
+            Self::Exponential {
+                derivative, own, ..
+            } => vec![Sum::Inner([derivative, own])],
+            Self::Pair {
+                derivative, places, ..
+            } => places.map(|place| Sum::Inner([derivative, place])).into(),
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// ±u ± c

@@ -6,7 +6,7 @@ use std::collections::{BTreeSet, HashMap};
 use egg::Language;
 
 use super::choice::Choice;
-use super::recurrence::{Place, Shifted};
+use super::recurrence::{Place, Shifted, Sum};
 use crate::algebra::{Id, Math};
 
 /// The coefficient of a node times a scale.
@@ -34,6 +34,22 @@ pub enum Scaled {
         /// u
         of: Place,
     },
+}
+
+impl Scaled {
+    /// The square in it, if there is one.
+    fn squared(&self) -> Option<Place> {
+        match self {
+            Self::Constant(_) | Self::Node(_) => None,
+            Self::Multiple(_, of) | Self::Shifted { moving: of, .. } => of.squared(),
+            Self::Square { of, .. } => Some(*of),
+        }
+    }
+
+    /// The sum that it takes of the orders below.
+    pub(super) fn sum(&self) -> Option<Sum> {
+        self.squared().map(Sum::Half)
+    }
 }
 
 /// What a node is multiplied by.

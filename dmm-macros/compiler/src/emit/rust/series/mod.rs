@@ -2,6 +2,7 @@
 //! the runtime's module `series`.
 
 mod recurrences;
+mod sums;
 mod writer;
 
 use proc_macro2::TokenStream;
@@ -84,6 +85,7 @@ pub(super) fn body(
         &series.roots,
     );
     let mut writer = Writer::new(scope, states, block.fusing(true));
+    writer.joint_sums(series);
     for coefficient in &series.coefficients {
         writer.coefficient(coefficient);
     }

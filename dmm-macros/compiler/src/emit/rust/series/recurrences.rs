@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::writer::{Writer, factor, minus, product};
 use crate::algebra::{Function, Id};
-use crate::program::series::{Base, Place, Primitive, Recurrence};
+use crate::program::series::{Base, Place, Primitive, Recurrence, Sum};
 
 impl Writer<'_, '_> {
     /// The coefficient of a node that is not linear in its operands; what is, the block writes.
@@ -17,8 +17,11 @@ impl Writer<'_, '_> {
                 let (u, c) = (self.value(u), self.fixed(c));
                 Self::call("plus", &[minus(minus_u, &u), minus(minus_c, &c)])
             }
-            Recurrence::Square(of) => Self::call("square", &[self.array(of)]),
-            Recurrence::Product(of) => Self::call("product", &of.map(|place| self.array(place))),
+            Recurrence::Square(of) => self.with_sum("square", &[self.array(of)], Sum::Half(of)),
+            Recurrence::Product(of) => {
+                let factors = of.map(|place| self.array(place));
+                self.with_sum("product", &factors, Sum::Inner(of))
+            }
             Recurrence::Quotient {
                 numerator,
                 denominator,
@@ -27,7 +30,8 @@ impl Writer<'_, '_> {
             } => {
                 let (u, v) = (self.value(numerator), self.place(denominator));
                 let inverse = self.inverse(inverse, &quote!(#v[0]));
-                Self::call("quotient", &[u, quote!(&#v), self.array(own), inverse])
+                let arguments = [u, quote!(&#v), self.array(own), inverse];
+                self.with_sum("quotient", &arguments, Sum::Inner([denominator, own]))
             }
             Recurrence::Power {
                 base,
@@ -194,7 +198,8 @@ impl Writer<'_, '_> {
         let value = self.value(argument);
         let root = quote!(#scalar::sqrt(#value));
         let inverse = self.inverse(inverse, &quote!(#scalar::from_f64(2.0) * #root));
-        let later = Self::call("square_root", &[value, self.array(own), inverse]);
+        let arguments = [value, self.array(own), inverse];
+        let later = self.with_sum("square_root", &arguments, Sum::Half(own));
         quote!(if at == 0 { #root } else { #later })
     }
 
@@ -207,8 +212,8 @@ impl Writer<'_, '_> {
             let sign = negative.then(|| quote!(-));
             start = quote!(#scalar::exp_product(#sign #p, t));
         }
-        let d = self.derivative(argument, derivative);
-        let later = Self::call("integral", &[quote!(&#d), self.array(own)]);
+        self.derivative(argument, derivative);
+        let later = self.integral(derivative, own);
         quote!(if at == 0 { #start } else { #later })
     }
 
@@ -279,10 +284,9 @@ impl Writer<'_, '_> {
         places: [Place; 2],
     ) {
         let [sine, cosine] = functions.map(|one| self.start(one, argument));
-        let d = self.derivative(argument, derivative);
+        self.derivative(argument, derivative);
         let [s, c] = places.map(|place| self.place(place));
-        let next_sine = Self::call("integral", &[quote!(&#d), quote!(&#c)]);
-        let next_cosine = Self::call("integral", &[quote!(&#d), quote!(&#s)]);
+        let [next_cosine, next_sine] = places.map(|place| self.integral(derivative, place));
         let next_cosine = minus(is_negative, &next_cosine);
         self.block.push(quote! {
             let (sine, cosine) = if at == 0 {

@@ -6,10 +6,11 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::States;
+use super::sums::Known;
 use crate::algebra::Id;
 use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
-use crate::program::series::{Coefficient, Factor, Later, Place, Scaled};
+use crate::program::series::{Coefficient, Factor, Later, Place, Scaled, Sum};
 
 /// Writes the coefficient of one node after the other.
 pub(super) struct Writer<'a, 'b> {
@@ -18,6 +19,8 @@ pub(super) struct Writer<'a, 'b> {
     states: States,
     /// The names of the halves of squares.
     halves: BTreeMap<Id, Ident>,
+    /// The sums that are known.
+    pub(super) sums: Known,
 }
 
 impl<'a, 'b> Writer<'a, 'b> {
@@ -28,6 +31,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             block,
             states,
             halves: BTreeMap::new(),
+            sums: Known::new(),
         }
     }
 
@@ -115,7 +119,7 @@ impl<'a, 'b> Writer<'a, 'b> {
         if let Some(half) = self.halves.get(&node) {
             return half.clone();
         }
-        let value = Self::call("half_square", &[self.array(of)]);
+        let value = self.with_sum("half_square", &[self.array(of)], Sum::Half(of));
         let half = self.block.fresh("half");
         self.block.push(quote!(let #half = #value;));
         self.halves.insert(node, half.clone());
