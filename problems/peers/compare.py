@@ -28,6 +28,9 @@ PROBLEMS = [
     "henon_heiles",
     "toda",
     "relativistic_oscillator",
+    "poschl_teller",
+    "double_pendulum",
+    "three_body",
 ]
 LEVELS = [1e-3, 1e-6, 1e-9, 1e-12]
 TOLERANCES = [10 ** (-k / 2) for k in range(4, 32)]

@@ -135,8 +135,8 @@ fn block<'a>(
     })
 }
 
-/// What the derivatives along a solution are told to, in the order of time.
-pub(super) trait Listener {
+/// What is told of the derivatives along a solution, in the order of time.
+pub(super) trait Collector {
     /// Of the state at the time of a point.
     fn point(&mut self, derivatives: &Derivatives);
 
@@ -173,13 +173,13 @@ impl<'a, Sys: System<N>, Met: Method, C: Carried, const N: usize> Forward<'a, Sy
         }
     }
 
-    /// Tells a listener the derivatives along the solution.
-    pub(super) fn run(&self, listener: &mut impl Listener) -> Result<(), Error> {
+    /// Tells a collector of the derivatives along the solution.
+    pub(super) fn run(&self, collector: &mut impl Collector) -> Result<(), Error> {
         let replay = self.replay;
         let mut present = self.zeros();
         present.first.fill_diagonal(1.0);
         present.first.row_mut(N).fill(0.0);
-        listener.point(&present);
+        collector.point(&present);
         for stage in &replay.stages {
             if stage.moves() {
                 let [end] = self.map(stage.from, &present, |place, parameters| {
@@ -187,7 +187,7 @@ impl<'a, Sys: System<N>, Met: Method, C: Carried, const N: usize> Forward<'a, Sy
                     let t = C::Number::from_f64(stage.end.value);
                     Ok([Place { t, x }])
                 })?;
-                listener.point(&end);
+                collector.point(&end);
                 if stage.met.is_none() {
                     present = end;
                     continue;
@@ -197,9 +197,9 @@ impl<'a, Sys: System<N>, Met: Method, C: Carried, const N: usize> Forward<'a, Sy
             let [before, after] = self.map(stage.from, &present, |place, parameters| {
                 replay.meet(stage, met, place, parameters)
             })?;
-            listener.transition(met.t, &before, &after);
+            collector.transition(met.t, &before, &after);
             let end = replay.end(stage);
-            listener.point(&self.at(end, &after, end.time)?);
+            collector.point(&self.at(end, &after, end.time)?);
             present = after;
         }
         Ok(())

@@ -13,7 +13,7 @@ use crate::contract::System;
 use crate::error::{Error, ErrorKind};
 use crate::method::Method;
 use crate::output::Solution;
-use forward::{Carried, Derivatives, First, Forward, Listener, Second};
+use forward::{Carried, Collector, Derivatives, First, Forward, Second};
 use replay::Replay;
 
 /// The derivatives of a state by the initial state and by the parameters.
@@ -216,8 +216,8 @@ impl<Sys: System<N>, Met: Method, const N: usize> Solution<Sys, Met, N> {
         Ok(along)
     }
 
-    fn forward<C: Carried>(&self, listener: &mut impl Listener) -> Result<(), Error> {
-        Forward::<Sys, Met, N, C>::new(&Replay::new(self)?).run(listener)
+    fn forward<C: Carried>(&self, collector: &mut impl Collector) -> Result<(), Error> {
+        Forward::<Sys, Met, N, C>::new(&Replay::new(self)?).run(collector)
     }
 
     /// The derivatives at any time of the solution, by a step from the point before it.
@@ -315,7 +315,7 @@ impl<const N: usize> Default for Sensitivities<N> {
     }
 }
 
-impl<const N: usize> Listener for Sensitivities<N> {
+impl<const N: usize> Collector for Sensitivities<N> {
     fn point(&mut self, derivatives: &Derivatives) {
         self.points.push(split(derivatives));
     }
@@ -337,7 +337,7 @@ impl<const N: usize> Listener for Sensitivities<N> {
     }
 }
 
-impl<const N: usize> Listener for SecondSensitivities<N> {
+impl<const N: usize> Collector for SecondSensitivities<N> {
     fn point(&mut self, derivatives: &Derivatives) {
         self.first.point(derivatives);
         self.points.push(hessians(derivatives));

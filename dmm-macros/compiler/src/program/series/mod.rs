@@ -104,17 +104,14 @@ impl SeriesResult {
 impl Series {
     /// The sums that are run together, each once: none where they are written out.
     pub fn joint_sums(&self) -> Vec<Sum> {
-        let mut sums = Vec::new();
-        if self.sums == Sums::Rolled {
-            let of_nodes = self.coefficients.iter();
-            let of_nodes = of_nodes.flat_map(|one| one.recurrence.sums());
-            for sum in of_nodes.chain(self.results.iter().flat_map(SeriesResult::sums)) {
-                if !sums.contains(&sum) {
-                    sums.push(sum);
-                }
-            }
+        if self.sums == Sums::Straight {
+            return Vec::new();
         }
-        sums
+        let of_nodes = self.coefficients.iter();
+        let of_nodes = of_nodes.flat_map(|one| one.recurrence.sums());
+        let all = of_nodes.chain(self.results.iter().flat_map(SeriesResult::sums));
+        let mut seen = BTreeSet::new();
+        all.filter(|sum| seen.insert(*sum)).collect()
     }
 
     /// The recurrences of the solution of ẋ = f(t, x).

@@ -1,8 +1,6 @@
 //! The sums over the coefficients of lower order, several in one loop: none of them waits for another,
 //! and what a loop takes beside its products it takes once.
 
-use std::collections::BTreeMap;
-
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -61,6 +59,3 @@ impl Writer<'_, '_> {
         self.with_sum("integral", &arguments, Sum::Inner([derivative, of]))
     }
 }
-
-/// The names of sums.
-pub(super) type Known = BTreeMap<Sum, Ident>;

@@ -6,7 +6,6 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::States;
-use super::sums::Known;
 use crate::algebra::Id;
 use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
@@ -19,8 +18,8 @@ pub(super) struct Writer<'a, 'b> {
     states: States,
     /// The names of the halves of squares.
     halves: BTreeMap<Id, Ident>,
-    /// The sums that are known.
-    pub(super) sums: Known,
+    /// The names of the sums that are known.
+    pub(super) sums: BTreeMap<Sum, Ident>,
 }
 
 impl<'a, 'b> Writer<'a, 'b> {
@@ -31,7 +30,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             block,
             states,
             halves: BTreeMap::new(),
-            sums: Known::new(),
+            sums: BTreeMap::new(),
         }
     }
 
