@@ -56,6 +56,8 @@ def settings_of(program, problem, sample):
                 setting = Setting(scheme, tolerance, run, sample)
             except RuntimeError as refused:
                 print(f"    {scheme} at {tolerance:.0e}: {refused}")
+                if str(refused).startswith("no problem"):
+                    break
                 continue
             yield setting
             if setting.seconds > LONGEST:
