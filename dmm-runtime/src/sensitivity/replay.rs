@@ -227,7 +227,10 @@ impl<'a, Sys: System<N>, Met: Method, const N: usize> Replay<'a, Sys, Met, N> {
             };
             let is_constant = |value: &S| (*value - S::from_f64(value.to_f64())).is_zero();
             if !discrete.iter().all(is_constant) {
-                return Err("a discrete state depends on the state or on a parameter");
+                return Err(
+                    "a discrete state depends on the state or on a parameter: declare it as a \
+                     state u with `der(u) = 0;`",
+                );
             }
             events += 1;
             state = after;

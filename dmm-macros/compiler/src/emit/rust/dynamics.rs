@@ -150,14 +150,14 @@ fn advance(emission: &Emission<'_>, scope: &Scope<'_>, program: &Series) -> Toke
         type Unrolled = #unrolled;
         /// No coefficients yet.
         #[inline]
-        fn series<const #count: usize>(&self) -> Self::Series<#count> {
+        fn series<const #count: usize>(&self) -> Self::Series<{ #count }> {
             [[#scalar::from_f64(0.0); #count]; #slots]
         }
         /// The coefficients of order k + 1 of the solution, and those of order k of what it is
         /// made from.
         #[inline(always)]
         fn advance<#order: dmm::series::Order, const #count: usize>(
-            &self, k: #order, t: #scalar, series: &mut Self::Series<#count>
+            &self, k: #order, t: #scalar, series: &mut Self::Series<{ #count }>
         ) {
             #body
         }

@@ -301,13 +301,13 @@ fn advance(
         type Unrolled = #unrolled;
         /// No coefficients yet.
         #[inline]
-        fn series<const #count: usize>(&self) -> Self::Series<#count> {
+        fn series<const #count: usize>(&self) -> Self::Series<{ #count }> {
             [[#scalar::from_f64(0.0); #count]; #slots]
         }
         /// The coefficients of order k of every g along the series of the states.
         #[inline(always)]
         fn advance<#order: dmm::series::Order, const #count: usize>(
-            &self, k: #order, t: #scalar, states: &[[#scalar; #count]], series: &mut Self::Series<#count>
+            &self, k: #order, t: #scalar, states: &[[#scalar; #count]], series: &mut Self::Series<{ #count }>
         ) {
             #body
         }
