@@ -46,9 +46,9 @@ fn row(of: &Sensitivity<2>, i: usize) -> Vec<f64> {
 fn both(second: &SecondSensitivities<2>) -> (Vec<Vec<f64>>, Vec<&DMatrix<f64>>) {
     let (mut firsts, mut seconds) = (Vec::new(), Vec::new());
     let (end, hessians) = (second.first().last().unwrap(), second.last().unwrap());
-    for i in 0..2 {
+    for (i, hessian) in hessians.iter().enumerate() {
         firsts.push(row(end, i));
-        seconds.push(&hessians[i]);
+        seconds.push(hessian);
     }
     for (met, hessians) in (second.first().transitions().iter()).zip(second.transitions()) {
         let (initial, parameters) = (met.time_by_initial.iter(), met.time_by_parameters.iter());
