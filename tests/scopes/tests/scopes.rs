@@ -272,7 +272,7 @@ fn a_system_may_have_any_name() {
     use ode::{Integrator, Taylor};
 
     let rotated = Integrator::new(&short::P {}, Taylor::tolerance(1e-12))
-        .initial(0.0, [1.0, 0.0])
+        .initial(0.0, [1.0, 0.5])
         .run_until(2.0)
         .unwrap();
     assert_eq!(rotated.transitions()[0].to, short::PRegion::Below);
