@@ -1,26 +1,9 @@
 //! The chain rule: the elementary functions of scalars that carry derivatives.
 
-use std::fmt::Debug;
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-
 use super::Scalar;
 
 /// A value with derivatives, which functions change by the chain rule.
-pub(crate) trait Chain:
-    nalgebra::Scalar
-    + Copy
-    + Debug
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + SubAssign
-    + MulAssign
-    + DivAssign
-{
+pub(crate) trait Chain: Scalar {
     /// What values and first derivatives are.
     type Value: Scalar;
 

@@ -59,21 +59,29 @@ fn run(
     Ok((values, derivatives))
 }
 
+/// The start of runs.
+const START: [f64; 2] = [0.1, 0.6];
+
+/// The system and the start with one number changed: a component of the initial state, or a parameter.
+pub(super) fn changed(direction: usize, step: f64) -> (Pendulum, [f64; 2]) {
+    let (mut system, mut start) = (Pendulum::default(), START);
+    match direction {
+        0 | 1 => start[direction] += step,
+        2 => system.k += step,
+        3 => system.e += step,
+        _ => system.push += step,
+    }
+    (system, start)
+}
+
 /// Compares with central differences.
 fn assert_derivatives<Met: Method + 'static>(name: &str, method: Met) -> Result<(), Failure> {
-    const START: [f64; 2] = [0.1, 0.6];
     const STEP: f64 = 1e-5;
     let (values, derivatives) = run(&Pendulum::default(), method.clone(), START)?;
     assert!(values.len() > 4, "{name}: {values:?}");
     for direction in 0..5 {
         let at = |step: f64| {
-            let (mut system, mut start) = (Pendulum::default(), START);
-            match direction {
-                0 | 1 => start[direction] += step,
-                2 => system.k += step,
-                3 => system.e += step,
-                _ => system.push += step,
-            }
+            let (system, start) = changed(direction, step);
             run(&system, method.clone(), start)
         };
         let (above, below) = (at(STEP)?.0, at(-STEP)?.0);

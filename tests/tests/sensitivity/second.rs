@@ -6,9 +6,8 @@ use dmm_runtime::{
 };
 
 use super::Failure;
-use super::discrete::Pendulum;
+use super::discrete::changed;
 
-const START: [f64; 2] = [0.1, 0.6];
 const DIRECTIONS: usize = 5;
 
 /// With one number changed: a component of the initial state or a parameter.
@@ -17,13 +16,7 @@ fn run(
     direction: usize,
     step: f64,
 ) -> Result<SecondSensitivities<2>, Failure> {
-    let (mut system, mut start) = (Pendulum::default(), START);
-    match direction {
-        0 | 1 => start[direction] += step,
-        2 => system.k += step,
-        3 => system.e += step,
-        _ => system.push += step,
-    }
+    let (system, start) = changed(direction, step);
     let solution = Integrator::new(&system, method)
         .initial(0.0, start)
         .run_until(3.0)?;
