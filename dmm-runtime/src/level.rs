@@ -27,6 +27,7 @@ use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::contract::{Dynamics, Matrix, Vector};
 
+use factors::Factors;
 pub(crate) use guard_point::{Found, GuardPoint};
 use pairs::{MOST_IN_PAIRS, in_pairs, remainder, switching_in_pairs};
 pub(crate) use weights::Weights;
@@ -188,9 +189,10 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             let factor = -(residual[0] / (square + damping));
             return vector(|i| weighted[i] * factor);
         }
-        let fast = weights.by_factors((multiplier, count), residual, &damping);
+        let fast = Factors::new(weights, (multiplier, count), &damping);
+        let displacement = fast.displacement(residual);
         if fast.steep.all() {
-            return fast.displacement;
+            return displacement;
         }
         let gentle =
             |projection: &MinimalNorm<f64, N, M>, residual: &Vector<f64, M>, damping: &_| {
@@ -201,7 +203,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
                 }
             };
         let (slow, _) = weights.by_lane(multiplier, residual, &damping, gentle);
-        fast.steep.select_vector(&fast.displacement, &slow)
+        fast.steep.select_vector(&displacement, &slow)
     }
 }
 

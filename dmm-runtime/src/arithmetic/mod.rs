@@ -11,6 +11,7 @@ pub(crate) mod linear;
 pub(crate) mod masked;
 mod minimal_norm;
 pub(crate) mod recorded;
+pub(crate) mod rows;
 mod scalar;
 mod sparse;
 mod state;

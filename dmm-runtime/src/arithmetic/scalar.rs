@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use super::rows;
+
 /// A real scalar: `f64`; within this crate also pairs of doubles, and several doubles at once.
 ///
 /// Constants enter through [`Scalar::from_f64`]. The elementary functions are those of the
@@ -47,6 +49,11 @@ pub trait Scalar:
     /// which the target's features tell, and otherwise with two. (A library's fused operation
     /// takes several times as long as a product and a sum.)
     fn fused(self, b: Self, c: Self) -> Self;
+    /// Σ aⱼ bₙ₋₁₋ⱼ over n rows of W numbers, by column; W is a multiple of four.
+    #[inline(always)]
+    fn products_by_column<const W: usize>(a: &[Self], b: &[Self]) -> [Self; W] {
+        rows::products(a, b)
+    }
     /// u, where a chain of operations is so long that it is better interrupted. (Of several
     /// scalars at once the compiler finds only ten operations or so that belong together.)
     #[inline(always)]

@@ -10,70 +10,87 @@ use crate::contract::{Matrix, Vector};
 /// have lost too many digits. What is lost above leaves 10⁻⁹ of a displacement.
 const INDEPENDENT: f64 = 1e-6;
 
-/// A displacement towards the level.
-pub(super) struct ByFactors<S: Masked, const N: usize> {
-    /// The displacement, which has no meaning where rows are not independent.
-    pub(super) displacement: Vector<S, N>,
-    /// Where all rows are independent.
+/// ΛW and the factors of ΛWΛᵀ, of as many rows of Λ as there are quantities.
+pub(super) struct Factors<S: Masked, const N: usize, const M: usize> {
+    weighted: Matrix<S, M, N>,
+    /// L, below its diagonal of ones.
+    lower: Matrix<S, M, M>,
+    /// D⁻¹
+    inverses: Vector<S, M>,
+    /// Where all rows are independent; what is solved for has no meaning elsewhere.
     pub(super) independent: S::Mask,
     /// Where they are steep beyond the bound, too.
     pub(super) steep: S::Mask,
 }
 
-impl<const N: usize, S: Masked> Weights<N, S> {
-    /// −WΛᵀ(ΛWΛᵀ)⁻¹ r of the first `count` rows of Λ, where all of them are independent.
+impl<const N: usize, const M: usize, S: Masked> Factors<S, N, M> {
+    /// Those of the first `count` rows of Λ.
     #[inline]
-    pub(super) fn by_factors<const M: usize>(
-        &self,
+    pub(super) fn new(
+        weights: &Weights<N, S>,
         (multiplier, count): (&Matrix<S, M, N>, usize),
-        residual: &Vector<S, M>,
         bound: &Vector<S, M>,
-    ) -> ByFactors<S, N> {
+    ) -> Self {
         let mut weighted = *multiplier;
         for i in 0..N {
             for m in 0..M {
-                weighted[(m, i)] *= self.of(i);
+                weighted[(m, i)] *= weights.of(i);
             }
         }
-        let mut factors = products(multiplier, &weighted);
-        let mut solution = *residual;
+        let mut lower = products(multiplier, &weighted);
         let mut inverses = vector::<S, M>(|_| S::from_f64(0.0));
         let mut independent = S::Mask::all_are(true);
         let mut steep = independent;
         for k in 0..count.min(M) {
-            let square = factors[(k, k)];
+            let square = lower[(k, k)];
             let mut rest = square;
             for j in 0..k {
                 // still times the square of what row j adds
-                let share = factors[(k, j)] * inverses[j];
-                rest = (-share).fused(factors[(k, j)], rest);
+                let share = lower[(k, j)] * inverses[j];
+                rest = (-share).fused(lower[(k, j)], rest);
                 for later in k + 1..M {
-                    let less = (-share).fused(factors[(later, j)], factors[(later, k)]);
-                    factors[(later, k)] = less;
+                    let less = (-share).fused(lower[(later, j)], lower[(later, k)]);
+                    lower[(later, k)] = less;
                 }
-                solution[k] = (-share).fused(solution[j], solution[k]);
             }
             independent = independent.and(rest.above(square * S::from_f64(INDEPENDENT)));
             steep = steep.and(rest.above(bound[k]));
             inverses[k] = S::from_f64(1.0) / rest;
         }
-        for k in (0..M).rev() {
-            solution[k] *= inverses[k];
+        for k in 0..M {
             for later in k + 1..M {
-                let share = factors[(later, k)] * inverses[k];
-                solution[k] = (-share).fused(solution[later], solution[k]);
+                lower[(later, k)] *= inverses[k];
             }
         }
-        let displacement = vector(|i| {
-            let parts = (0..M).map(|m| (weighted[(m, i)], solution[m]));
-            let zero = S::from_f64(0.0);
-            parts.fold(zero, |sum, (row, part)| (-row).fused(part, sum))
-        });
-        ByFactors {
-            displacement,
+        Self {
+            weighted,
+            lower,
+            inverses,
             independent,
             steep: steep.and(independent),
         }
+    }
+
+    /// The displacement −WΛᵀ(ΛWΛᵀ)⁻¹ r.
+    #[inline]
+    pub(super) fn displacement(&self, residual: &Vector<S, M>) -> Vector<S, N> {
+        let mut solution = *residual;
+        for k in 0..M {
+            for j in 0..k {
+                solution[k] = (-self.lower[(k, j)]).fused(solution[j], solution[k]);
+            }
+        }
+        for k in (0..M).rev() {
+            solution[k] *= self.inverses[k];
+            for later in k + 1..M {
+                solution[k] = (-self.lower[(later, k)]).fused(solution[later], solution[k]);
+            }
+        }
+        vector(|i| {
+            let parts = (0..M).map(|m| (self.weighted[(m, i)], solution[m]));
+            let zero = S::from_f64(0.0);
+            parts.fold(zero, |sum, (row, part)| (-row).fused(part, sum))
+        })
     }
 }
 
@@ -113,14 +130,14 @@ mod tests {
         );
         let residual = Vector::from([1e-8, -3e-9, 2e-9]);
         let bound = Vector::from([1e-20; 3]);
-        let fast = weights.by_factors((&rows(), 3), &residual, &bound);
+        let fast = Factors::new(&weights, (&rows(), 3), &bound);
         let smallest = |projection: &MinimalNorm<f64, 5, 3>, residual: &_, _: &_| {
             projection.smallest(residual)
         };
         let (slow, steep) = weights.by_lane(&rows(), &residual, &bound, smallest);
         assert!(fast.steep && steep);
         // the rows are independent to a part of 10⁻²
-        let difference = (fast.displacement - slow).amax();
+        let difference = (fast.displacement(&residual) - slow).amax();
         assert!(difference < 1e-20, "{difference:e}");
     }
 
@@ -130,12 +147,9 @@ mod tests {
         let mut dependent = rows();
         let sum = dependent.row(0) + dependent.row(1);
         dependent.set_row(2, &sum);
-        let residual = Vector::from([1e-8; 3]);
         let bound = Vector::from([1e-20; 3]);
-        let independent = |count: usize| {
-            let found = weights.by_factors((&dependent, count), &residual, &bound);
-            found.independent
-        };
+        let independent =
+            |count: usize| Factors::new(&weights, (&dependent, count), &bound).independent;
         assert!(independent(2) && !independent(3));
     }
 
@@ -146,7 +160,8 @@ mod tests {
         two.set_row(2, &Matrix::<f64, 1, 5>::zeros());
         let residual = Vector::from([1e-8, 1e-8, 0.0]);
         let bound = Vector::from([1e-20; 3]);
-        let found = weights.by_factors((&two, 2), &residual, &bound);
-        assert!(found.steep && (two * found.displacement + residual).amax() < 1e-22);
+        let found = Factors::new(&weights, (&two, 2), &bound);
+        let displacement = found.displacement(&residual);
+        assert!(found.steep && (two * displacement + residual).amax() < 1e-22);
     }
 }

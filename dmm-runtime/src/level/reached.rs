@@ -1,11 +1,15 @@
 //! The end of a step, put back on the level.
 
+use super::factors::Factors;
 use super::weights::COARSE;
 use super::{Level, Weights, little, remainder, row};
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Vector};
+
+/// Corrections with the same slopes: each leaves the product of the first displacement and its own.
+const MOST_ALIKE: u32 = 3;
 
 impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
     /// The state that a step over `displacement` has come to, put back on the level if it
@@ -26,11 +30,63 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         if M == 1 {
             return self.reached_at_once(dynamics, time, state, (&weights, used));
         }
-        self.step_by_step(dynamics, time, state, (&weights, used))
+        // what is not inlined does not compute in lanes
+        if S::LANES == 1 {
+            self.reached_by_factors_apart(dynamics, time, state, (&weights, used))
+        } else {
+            self.reached_by_factors(dynamics, time, state, (&weights, used))
+        }
     }
 
-    /// The same for one quantity, where it has some slope. What a large correction leaves, the
-    /// square of it, is taken off with the same slope.
+    #[inline(never)]
+    fn reached_by_factors_apart<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        how: (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        self.reached_by_factors(dynamics, time, state, how)
+    }
+
+    /// The same for several quantities, where each adds to the slope of the others. What a large
+    /// correction leaves, the square of it, is taken off with the same slopes, again and again.
+    #[inline(always)]
+    fn reached_by_factors<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: State<N, S>,
+        (weights, used): (&Weights<N, S>, S::Mask),
+    ) -> State<N, S> {
+        let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
+        let little = self.bound(little(N), weights);
+        let factors = Factors::new(weights, (&multiplier, dynamics.quantities()), &little);
+        if factors.steep.not().and(used).any() {
+            return self.reached_by_steps(dynamics, time, state, (weights, used));
+        }
+        let off = remainder(dynamics, time, &state);
+        let first = factors.displacement(&self.rounded_residual(&psi, &multiplier, &off));
+        let mut reached = select(used, &displaced(state, &first), &state);
+        let mut left = weights.are_left_by(&first).and(used);
+        for _ in 0..MOST_ALIKE {
+            if !left.any() {
+                break;
+            }
+            let psi = dynamics.conserved(time.value, &reached.x);
+            let off = remainder(dynamics, time, &reached);
+            let next = factors.displacement(&self.rounded_residual(&psi, &multiplier, &off));
+            reached = select(left, &displaced(reached, &next), &reached);
+            // the same slopes again leave the product with the first displacement
+            left = left.and(weights.are_left_by_both(&first, &next));
+        }
+        if left.any() {
+            reached = self.reached_by_steps(dynamics, time, reached, (weights, left));
+        }
+        reached
+    }
+
+    /// The same for one quantity, where it has some slope.
     #[inline(always)]
     fn reached_at_once<F: Dynamics<S, N, M>>(
         &self,
@@ -54,16 +110,19 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         let first = self.rounded_residual(&psi, &multiplier, &off)[0];
         let mut reached = less(state, &gain, first);
         let coarse = square * (weights.unit * S::from_f64(COARSE * COARSE));
-        let mut rest = flat;
-        let again = (first * first).above(coarse).and(steep).and(used);
-        if again.any() {
+        let mut left = (first * first).above(coarse).and(steep).and(used);
+        for _ in 0..MOST_ALIKE {
+            if !left.any() {
+                break;
+            }
             let psi = dynamics.conserved(time.value, &reached.x);
             let off = remainder(dynamics, time, &reached);
-            let second = self.rounded_residual(&psi, &multiplier, &off)[0];
-            reached = select(again, &less(reached, &gain, second), &reached);
-            // the same slope again leaves the product of the two
-            rest = rest.or(again.and((first * second).abs().above(coarse)));
+            let next = self.rounded_residual(&psi, &multiplier, &off)[0];
+            reached = select(left, &less(reached, &gain, next), &reached);
+            // the same slope again leaves the product with the first residual
+            left = left.and((first * next).abs().above(coarse));
         }
+        let rest = flat.or(left);
         if rest.any() {
             reached = select(flat, &state, &reached);
             reached = self.reached_by_steps(dynamics, time, reached, (weights, rest));
@@ -112,11 +171,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         const MOST: u32 = 9;
         for _ in 0..MOST {
             let displacement = self.correction(dynamics, time, &state, weights);
-            let mut moved = state;
-            for i in 0..N {
-                moved.remainder[i] += displacement[i];
-            }
-            state = select(used, &moved.normalised(), &state);
+            state = select(used, &displaced(state, &displacement), &state);
             used = used.and(weights.are_left_by(&displacement));
             if !used.any() {
                 break;
@@ -135,6 +190,18 @@ fn less<const N: usize, S: Masked>(
 ) -> State<N, S> {
     for i in 0..N {
         state.remainder[i] -= gain[i] * residual;
+    }
+    state.normalised()
+}
+
+/// The state with a displacement.
+#[inline(always)]
+fn displaced<const N: usize, S: Masked>(
+    mut state: State<N, S>,
+    displacement: &Vector<S, N>,
+) -> State<N, S> {
+    for i in 0..N {
+        state.remainder[i] += displacement[i];
     }
     state.normalised()
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::factors::Factors;
 use crate::arithmetic::MinimalNorm;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::contract::{Matrix, Vector};
@@ -74,15 +75,16 @@ impl<const N: usize, S: Masked> Weights<N, S> {
         residual: &Vector<S, M>,
         bound: &Vector<S, M>,
     ) -> (Vector<S, N>, S::Mask) {
-        let fast = self.by_factors((multiplier, count), residual, bound);
+        let fast = Factors::new(self, (multiplier, count), bound);
+        let displacement = fast.displacement(residual);
         if fast.independent.all() {
-            return (fast.displacement, fast.steep);
+            return (displacement, fast.steep);
         }
         let (slow, steep) = self.by_lane(multiplier, residual, bound, |projection, residual, _| {
             projection.smallest(residual)
         });
         (
-            fast.independent.select_vector(&fast.displacement, &slow),
+            fast.independent.select_vector(&displacement, &slow),
             fast.steep.or(fast.independent.not().and(steep)),
         )
     }
@@ -117,10 +119,16 @@ impl<const N: usize, S: Masked> Weights<N, S> {
     /// Whether the error of second order of a displacement is more than a rounding error.
     #[inline(always)]
     pub(crate) fn are_left_by(&self, displacement: &Vector<S, N>) -> S::Mask {
+        self.are_left_by_both(displacement, displacement)
+    }
+
+    /// Whether the product of two displacements is more than a rounding error.
+    #[inline(always)]
+    pub(super) fn are_left_by_both(&self, one: &Vector<S, N>, other: &Vector<S, N>) -> S::Mask {
         let coarse = S::from_f64(COARSE * COARSE) * self.unit;
         (0..N).fold(S::Mask::all_are(false), |any, i| {
-            let square = displacement[i] * displacement[i];
-            any.or(square.above(coarse * self.squares[i]))
+            let product = (one[i] * other[i]).abs();
+            any.or(product.above(coarse * self.squares[i]))
         })
     }
 }

@@ -14,6 +14,7 @@ mod sums;
 mod tests;
 mod unroll;
 
+pub use sums::{half_sums, inner_sums, row, set_row};
 pub use unroll::{Choice, Coefficients, Rolled, Straight, Unroll};
 
 use crate::arithmetic::Scalar;
@@ -107,7 +108,7 @@ pub fn next_step<S: Scalar, K: Order>(k: K) -> S {
 /// it, in vectors, whose shuffles make the chain a fifth longer.
 #[inline(always)]
 pub fn scaled<S: Scalar, K: Order>(k: K, u: S, s: S) -> S {
-    if k.get().is_multiple_of(2) {
+    if !K::IS_FIXED || k.get().is_multiple_of(2) {
         u * s
     } else {
         u.fused(s, S::from_f64(0.0))
@@ -152,67 +153,24 @@ fn in_parts<S: Scalar>(j: usize, length: usize, sum: S) -> S {
     }
 }
 
-/// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k of several pairs of series: what the recurrences of order k take of the
-/// orders below.
+/// Coefficient k of uv from the [`inner_sums`] of u and v, and from u₀, uₖ, v₀ and vₖ.
 #[inline(always)]
-pub fn inner_sums<S: Scalar, K: Order, const P: usize, const B: usize>(
-    k: K,
-    pairs: [[&[S; P]; 2]; B],
-) -> [S; B] {
-    if !K::IS_FIXED {
-        let k = k.get().max(1);
-        return sums::together(pairs.map(|[a, b]| [&a[1..k], &b[1..k]]), k - 1);
+pub fn product_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], [v0, vk]: [S; 2], sum: S) -> S {
+    if k.get() == 0 {
+        return uk * vk;
     }
-    let mut sums = [S::from_f64(0.0); B];
-    for (sum, [a, b]) in sums.iter_mut().zip(pairs) {
-        *sum = inner(k, a, b);
-    }
-    sums
+    u0.fused(vk, uk.fused(v0, sum))
 }
 
-/// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2 of several series.
+/// Coefficient k of u² from the [`half_sums`] of u, and from u₀, uₖ and the one of order ⌊k/2⌋.
 #[inline(always)]
-pub fn half_sums<S: Scalar, K: Order, const P: usize, const B: usize>(
-    k: K,
-    series: [&[S; P]; B],
-) -> [S; B] {
-    let k = k.get().max(1);
-    let last = (k - 1) / 2;
-    if !K::IS_FIXED {
-        return sums::together(series.map(|u| [&u[1..=last], &u[k - last..k]]), last);
-    }
-    let mut sums = [S::from_f64(0.0); B];
-    for (sum, u) in sums.iter_mut().zip(series) {
-        for j in (1..=last).rev() {
-            *sum = u[j].fused(u[k - j], *sum);
-        }
-    }
-    sums
-}
-
-/// Coefficient k of uv from the [`inner_sums`] of u and v.
-#[inline(always)]
-pub fn product_from<S: Scalar, K: Order, const P: usize>(
-    k: K,
-    u: &[S; P],
-    v: &[S; P],
-    sum: S,
-) -> S {
+pub fn square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
     match k.get() {
-        0 => u[0] * v[0],
-        k => u[0].fused(v[k], u[k].fused(v[0], sum)),
-    }
-}
-
-/// Coefficient k of u² from the [`half_sums`] of u.
-#[inline(always)]
-pub fn square_from<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], sum: S) -> S {
-    match k.get() {
-        0 => u[0].squared(),
+        0 => uk.squared(),
         k => {
-            let sum = u[0].fused(u[k], sum);
+            let sum = u0.fused(uk, sum);
             if k.is_multiple_of(2) {
-                S::from_f64(2.0).fused(sum, u[k / 2].squared())
+                S::from_f64(2.0).fused(sum, middle.squared())
             } else {
                 sum + sum
             }
@@ -220,16 +178,16 @@ pub fn square_from<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], sum: S
     }
 }
 
-/// Coefficient k of u²/2 from the [`half_sums`] of u.
+/// Coefficient k of u²/2 from the [`half_sums`] of u, and from u₀, uₖ and the one of order ⌊k/2⌋.
 #[inline(always)]
-pub fn half_square_from<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], sum: S) -> S {
+pub fn half_square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
     let half = S::from_f64(0.5);
     match k.get() {
-        0 => half * u[0].squared(),
+        0 => half * uk.squared(),
         k => {
-            let sum = u[0].fused(u[k], sum);
+            let sum = u0.fused(uk, sum);
             if k.is_multiple_of(2) {
-                (u[k / 2] * half).fused(u[k / 2], sum)
+                (middle * half).fused(middle, sum)
             } else {
                 sum
             }
@@ -237,49 +195,44 @@ pub fn half_square_from<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], s
     }
 }
 
-/// Coefficient k of w = u/v from uₖ and the [`inner_sums`] of v and w; `inverse` is 1/v₀.
+/// Coefficient k of w = u/v from uₖ, vₖ, w₀ and the [`inner_sums`] of v and w; `inverse` is 1/v₀.
 #[inline(always)]
-pub fn quotient_from<S: Scalar, K: Order, const P: usize>(
-    k: K,
-    u: S,
-    v: &[S; P],
-    w: &[S; P],
-    inverse: S,
-    sum: S,
-) -> S {
+pub fn quotient_from<S: Scalar, K: Order>(k: K, u: S, v: S, first: S, inverse: S, sum: S) -> S {
     match k.get() {
         0 => u * inverse,
-        k => (-v[k]).fused(w[0], u - sum) * inverse,
+        _ => (-v).fused(first, u - sum) * inverse,
     }
 }
 
-/// Coefficient k ≥ 1 of w = √u from uₖ and the [`half_sums`] of w; `inverse` is 1/(2w₀).
+/// Coefficient k ≥ 1 of w = √u from uₖ, the one of w of order ⌊k/2⌋ and the [`half_sums`] of w;
+/// `inverse` is 1/(2w₀).
 #[inline(always)]
-pub fn square_root_from<S: Scalar, K: Order, const P: usize>(
-    k: K,
-    u: S,
-    w: &[S; P],
-    inverse: S,
-    sum: S,
-) -> S {
-    let k = k.get();
+pub fn square_root_from<S: Scalar, K: Order>(k: K, u: S, middle: S, inverse: S, sum: S) -> S {
     let mut sum = sum + sum;
-    if k.is_multiple_of(2) {
-        sum = w[k / 2].fused(w[k / 2], sum);
+    if k.get().is_multiple_of(2) {
+        sum = middle.fused(middle, sum);
     }
     (u - sum) * inverse
 }
 
-/// Coefficient k ≥ 1 of ∫ v du from d = h du/dh and the [`inner_sums`] of d and v.
+/// Coefficient k ≥ 1 of ∫ v du from dₖ of d = h du/dh, v₀ and the [`inner_sums`] of d and v.
 #[inline(always)]
-pub fn integral_from<S: Scalar, K: Order, const P: usize>(
+pub fn integral_from<S: Scalar, K: Order>(k: K, d: S, first: S, sum: S) -> S {
+    d.fused(first, sum) * inverse(k.get())
+}
+
+/// Coefficient k ≥ 1 of w = u^a from dₖ of d = h du/dh, w₀ and the [`inner_sums`] of w and d, and of
+/// h dw/dh and u; `inverse` is 1/u₀.
+#[inline(always)]
+pub fn power_from<S: Scalar, K: Order>(
     k: K,
-    d: &[S; P],
-    v: &[S; P],
-    sum: S,
+    d: S,
+    a: S,
+    first: S,
+    inverse_base: S,
+    [sum, other]: [S; 2],
 ) -> S {
-    let k = k.get();
-    d[k].fused(v[0], sum) * inverse(k)
+    (a.fused(d.fused(first, sum), -other)) * (inverse_base * inverse(k.get()))
 }
 
 /// Coefficient k of uv. The newest coefficients enter last, so that the sum of the others need
@@ -287,7 +240,7 @@ pub fn integral_from<S: Scalar, K: Order, const P: usize>(
 #[inline(always)]
 pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]) -> S {
     if !K::IS_FIXED {
-        return product_from(k, u, v, inner(k, u, v));
+        return product_from(k, ends(k, u), ends(k, v), inner(k, u, v));
     }
     let k = k.get();
     let mut sum = if k.is_multiple_of(2) {
@@ -306,8 +259,7 @@ pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]
 #[inline(always)]
 pub fn square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
     if !K::IS_FIXED {
-        let [sum] = half_sums(k, [u]);
-        return square_from(k, u, sum);
+        return square_from(k, ends(k, u), u[k.get() / 2], half(k, u));
     }
     let k = k.get();
     if k == 0 {
@@ -337,8 +289,7 @@ fn pairs<S: Scalar, const P: usize>(k: usize, u: &[S; P]) -> S {
 #[inline(always)]
 pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
     if !K::IS_FIXED {
-        let [sum] = half_sums(k, [u]);
-        return half_square_from(k, u, sum);
+        return half_square_from(k, ends(k, u), u[k.get() / 2], half(k, u));
     }
     let k = k.get();
     if k == 0 {
@@ -355,19 +306,33 @@ pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
     sum
 }
 
+/// u₀ and uₖ
+#[inline(always)]
+fn ends<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> [S; 2] {
+    [u[0], u[k.get()]]
+}
+
 /// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k
 #[inline(always)]
 fn inner<S: Scalar, K: Order, const P: usize>(k: K, a: &[S; P], b: &[S; P]) -> S {
     let k = k.get();
     if !K::IS_FIXED {
         let k = k.max(1);
-        return sums::turned(&a[1..k], &b[1..k]);
+        return sums::single(&a[1..k], &b[1..k]);
     }
     let mut sum = S::from_f64(0.0);
     for j in 1..k {
         sum = a[j].fused(b[k - j], in_parts(j, 8, sum));
     }
     sum
+}
+
+/// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2
+#[inline(always)]
+fn half<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
+    let k = k.get().max(1);
+    let last = (k - 1) / 2;
+    sums::single(&u[1..=last], &u[k - last..k])
 }
 
 /// Coefficient k of w = u/v from uₖ; `inverse` is 1/v₀.
@@ -379,15 +344,14 @@ pub fn quotient<S: Scalar, K: Order, const P: usize>(
     w: &[S; P],
     inverse: S,
 ) -> S {
-    quotient_from(k, u, v, w, inverse, inner(k, v, w))
+    quotient_from(k, u, v[k.get()], w[0], inverse, inner(k, v, w))
 }
 
 /// Coefficient k ≥ 1 of w = √u from uₖ; `inverse` is 1/(2w₀).
 #[inline(always)]
 pub fn square_root<S: Scalar, K: Order, const P: usize>(k: K, u: S, w: &[S; P], inverse: S) -> S {
     if !K::IS_FIXED {
-        let [sum] = half_sums(k, [w]);
-        return square_root_from(k, u, w, inverse, sum);
+        return square_root_from(k, u, w[k.get() / 2], inverse, half(k, w));
     }
     let k = k.get();
     let mut sum = S::from_f64(0.0);
@@ -422,7 +386,7 @@ pub fn power<S: Scalar, K: Order, const P: usize>(
 /// Coefficient k ≥ 1 of ∫ v du from d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …
 #[inline(always)]
 pub fn integral<S: Scalar, K: Order, const P: usize>(k: K, d: &[S; P], v: &[S; P]) -> S {
-    integral_from(k, d, v, inner(k, d, v))
+    integral_from(k, d[k.get()], v[0], inner(k, d, v))
 }
 
 /// Coefficient k ≥ 1 of e = d/v from dₖ, where e₀ = 0 and `inverse` is 1/v₀: with

@@ -1,93 +1,74 @@
-//! Sums of products by several terms at once, as vectors of the processor have them.
+//! Sums of products that run together: each has a lane of a table of coefficients, whose rows are the
+//! orders, so that a vector of the processor holds one term of several sums.
+//!
+//! A table of W lanes takes the place of W arrays of coefficients: its row j has the coefficients of
+//! order j.
 
-use std::hint::black_box;
-
+use super::Order;
 use crate::arithmetic::Scalar;
 
-/// Terms at once: as many doubles as a register of the target holds.
-const WIDTH: usize = if cfg!(target_feature = "avx") { 4 } else { 2 };
-
-/// By the number of terms that whole vectors leave: which of the last ones these are.
-const LEFT: [[f64; WIDTH]; WIDTH] = {
-    let mut left = [[0.0; WIDTH]; WIDTH];
-    let mut count = 1;
-    while count < WIDTH {
-        let mut j = WIDTH - count;
-        while j < WIDTH {
-            left[count][j] = 1.0;
-            j += 1;
-        }
-        count += 1;
-    }
-    left
-};
-
-/// Σ aⱼ bₙ₋₁₋ⱼ of two slices of n values.
+/// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k, of tables a and b of W lanes each, one behind the other. W is a multiple
+/// of four.
 #[inline(always)]
-pub(super) fn turned<S: Scalar>(a: &[S], b: &[S]) -> S {
-    let [sum] = together([[a, b]], a.len());
-    sum
+pub fn inner_sums<S: Scalar, K: Order, const P: usize, const W: usize>(
+    k: K,
+    tables: &[[S; P]],
+) -> [S; W] {
+    let k = k.get().max(1);
+    let (a, b) = tables.as_flattened().split_at(W * P);
+    S::products_by_column(&a[W..W * k], &b[W..W * k])
 }
 
-/// The same of several pairs of slices of n values: one loop for all of them.
+/// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2, of a table of W lanes, a multiple of four.
 #[inline(always)]
-pub(super) fn together<S: Scalar, const B: usize>(pairs: [[&[S]; 2]; B], n: usize) -> [S; B] {
+pub fn half_sums<S: Scalar, K: Order, const P: usize, const W: usize>(
+    k: K,
+    table: &[[S; P]],
+) -> [S; W] {
+    let k = k.get().max(1);
+    let last = (k - 1) / 2;
+    let u = table.as_flattened();
+    S::products_by_column(&u[W..W * (last + 1)], &u[W * (k - last)..W * k])
+}
+
+/// Row j of a table of W lanes: the coefficients of order j.
+#[inline(always)]
+pub fn row<S, const P: usize, const W: usize>(table: &[[S; P]], order: usize) -> &[S; W] {
+    let (rows, _) = table.as_flattened().as_chunks();
+    &rows[order]
+}
+
+/// Sets row k of a table to the coefficients of order k, as many as there are.
+#[inline(always)]
+pub fn set_row<S: Scalar, K: Order, const P: usize, const B: usize>(
+    k: K,
+    table: &mut [[S; P]],
+    row: [S; B],
+) {
+    let (k, lanes) = (k.get(), table.len());
+    table.as_flattened_mut()[k * lanes..][..B].copy_from_slice(&row);
+}
+
+/// Σ aⱼ bₙ₋₁₋ⱼ of two slices of n values, by four parts that do not wait for each other.
+#[inline(always)]
+pub(super) fn single<S: Scalar>(a: &[S], b: &[S]) -> S {
+    const PARTS: usize = 4;
     let zero = S::from_f64(0.0);
-    let mut sums = [zero; B];
-    // several lanes of each take all registers
-    if B > 1 && const { size_of::<S>() > size_of::<f64>() } {
-        for (sum, pair) in sums.iter_mut().zip(pairs) {
-            [*sum] = together([pair], n);
-        }
-        return sums;
-    }
-    if n < WIDTH {
-        for at in 0..n {
-            for (sum, [a, b]) in sums.iter_mut().zip(&pairs) {
-                *sum = a[..n][at].fused(b[..n][n - 1 - at], *sum);
-            }
-        }
-        return sums;
-    }
-    let mut parts = [[zero; WIDTH]; B];
-    for at in (0..n / WIDTH).map(|whole| whole * WIDTH) {
-        for (parts, [a, b]) in parts.iter_mut().zip(&pairs) {
-            let (a, b) = (vector(&a[..n], at), vector(&b[..n], n - WIDTH - at));
-            for j in 0..WIDTH {
-                parts[j] = a[j].fused(b[WIDTH - 1 - j], parts[j]);
-            }
+    let mut parts = [zero; PARTS];
+    let mut whole = a.chunks_exact(PARTS);
+    let mut turned = b.rchunks_exact(PARTS);
+    for (a, b) in whole.by_ref().zip(turned.by_ref()) {
+        for j in 0..PARTS {
+            parts[j] = a[j].fused(b[PARTS - 1 - j], parts[j]);
         }
     }
-    let left = LEFT[n % WIDTH].map(S::from_f64);
-    for (parts, [a, b]) in parts.iter_mut().zip(&pairs) {
-        let (a, b) = (vector(&a[..n], n - WIDTH), vector(&b[..n], 0));
-        for j in 0..WIDTH {
-            parts[j] = (a[j] * left[j]).fused(b[WIDTH - 1 - j], parts[j]);
-        }
+    let left = whole
+        .remainder()
+        .iter()
+        .zip(turned.remainder().iter().rev());
+    for (part, (&a, &b)) in parts.iter_mut().zip(left) {
+        *part = a.fused(b, *part);
     }
-    for (sum, parts) in sums.iter_mut().zip(&parts) {
-        *sum = total(black_box(*parts));
-    }
-    sums
-}
-
-/// The sum of the parts. They come by way of memory, without which LLVM would rather join those of
-/// several sums in a vector than the terms of one, and load these one by one.
-#[inline(always)]
-fn total<S: Scalar>(mut parts: [S; WIDTH]) -> S {
-    let mut count = WIDTH;
-    while count > 1 {
-        count /= 2;
-        for j in 0..count {
-            let other = parts[j + count];
-            parts[j] += other;
-        }
-    }
-    parts[0]
-}
-
-/// The values from `start` on.
-#[inline(always)]
-fn vector<S>(values: &[S], start: usize) -> &[S] {
-    &values[start..start + WIDTH]
+    let [first, second, third, fourth] = parts;
+    (first + third) + (second + fourth)
 }

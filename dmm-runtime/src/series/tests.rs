@@ -62,20 +62,28 @@ fn a_product_is_the_sum_of_all_products() {
 }
 
 #[test]
-fn several_sums_are_those_of_each() {
-    let (u, v, w) = (sample(9), sample(10), sample(11));
+fn sums_in_lanes_are_those_of_each() {
+    // blocks of 16, 8 and 4 lanes
+    const W: usize = 28;
+    let [a, b]: [[[f64; P]; W]; 2] =
+        [0, W].map(|first| std::array::from_fn(|lane| sample((9 + first + lane) as u64)));
+    let mut tables = [[0.0; P]; 2 * W];
     for k in 0..P {
-        let plain = |u: &[f64; P], v: &[f64; P]| (1..k).map(|j| u[j] * v[k - j]).sum::<f64>();
-        let sums = inner_sums(k, [[&u, &v], [&v, &w], [&w, &w]]);
-        let half = half_sums(k, [&w]);
-        let middle = if k % 2 == 0 && k > 0 { w[k / 2] } else { 0.0 };
-        let expected = [plain(&u, &v), plain(&v, &w), plain(&w, &w)];
-        for (sum, expected) in sums.into_iter().zip(expected) {
+        let sums: [f64; W] = inner_sums(k, &tables);
+        let halves: [f64; W] = half_sums(k, &tables[..W]);
+        for lane in 0..W {
+            let plain = |u: &[f64; P], v: &[f64; P]| (1..k).map(|j| u[j] * v[k - j]).sum::<f64>();
             // sums of at most 22 products, of series that fall off like 2⁻ᵏ
-            assert!((sum - expected).abs() <= 1e-14 * 0.5f64.powi(k as i32) * 22.0);
+            let close = |a: f64, b: f64| (a - b).abs() <= 1e-14 * 0.5f64.powi(k as i32) * 22.0;
+            let (a, b) = (&a[lane], &b[lane]);
+            assert!(close(sums[lane], plain(a, b)));
+            let middle = if k % 2 == 0 && k > 0 { a[k / 2] } else { 0.0 };
+            assert!(close(2.0 * halves[lane] + middle * middle, plain(a, a)));
         }
-        let whole = 2.0 * half[0] + middle * middle;
-        assert!((whole - expected[2]).abs() <= 1e-14 * 0.5f64.powi(k as i32) * 22.0);
+        let [rows_a, rows_b] = [&a, &b].map(|of| std::array::from_fn(|lane| of[lane][k]));
+        let (first, second) = tables.split_at_mut(W);
+        set_row::<_, _, P, W>(k, first, rows_a);
+        set_row::<_, _, P, W>(k, second, rows_b);
     }
 }
 

@@ -55,7 +55,12 @@ impl Unroll for Rolled {
         end: usize,
     ) {
         let unit = series.unit();
-        for order in FROM..end.min(TO) - LESS {
+        let orders = FROM..end.min(TO) - LESS;
+        // the first order apart: what the others do is not decided for each of them
+        if FROM == 0 && orders.end > 0 {
+            series.advance(InUnits { order: 0, unit });
+        }
+        for order in orders.start.max(1)..orders.end {
             series.advance(InUnits { order, unit });
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::arithmetic::Scalar;
 use crate::arithmetic::error_free::HAS_FUSED;
+use crate::arithmetic::rows;
 use crate::special;
 
 /// Implements functions of [`Scalar`] by those of the same name in a module or of a type.
@@ -34,6 +35,11 @@ impl Scalar for f64 {
         } else {
             self * b + c
         }
+    }
+
+    #[inline(always)]
+    fn products_by_column<const W: usize>(a: &[f64], b: &[f64]) -> [f64; W] {
+        rows::products_by_vectors(a, b)
     }
 
     #[inline]

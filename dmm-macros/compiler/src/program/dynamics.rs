@@ -6,7 +6,7 @@ use super::inputs::{at_point, over_step, solved};
 use super::lower::Lowered;
 use super::optimise::Optimiser;
 use super::results::{Derivative, Projected, Results, Rows};
-use super::series::Series;
+use super::series::{Series, with_powers};
 use super::size::size;
 use crate::algebra::{Dag, Id, Name};
 use crate::scheme::{Explicit, RegionScheme, Scheme, Strategy};
@@ -32,7 +32,7 @@ impl Dynamics {
     ) -> Self {
         let mut written = Lowered::new(parameters.to_vec());
         let results = Written::lower(dag, &mut written, scheme, region);
-        let (results, lowered) = results.optimised(&written, optimiser);
+        let (results, mut lowered) = results.optimised(&written, optimiser);
         let field = results[0].1.roots();
         let states = scheme.model.state_names();
         let variables = Variables {
@@ -40,6 +40,7 @@ impl Dynamics {
             over_step: over_step(&states),
             solved: solved(&scheme.regions[region].strategy),
         };
+        let field = with_powers(&mut lowered, &field);
         let functions = Functions::new(lowered, results, &variables, parameters);
         let series = Series::of_solution(&functions, &states, &field);
         Self { functions, series }

@@ -180,6 +180,7 @@ impl Order<'_> {
                 exponent,
                 own,
                 inverse,
+                ..
             } => {
                 let (c, inverse) = (
                     self.fixed(exponent),

@@ -59,6 +59,7 @@ impl Translation<'_> {
                 exponent,
                 own,
                 inverse,
+                ..
             } => {
                 let integer = self.lowered.dag().as_integer(exponent);
                 Step::Power {

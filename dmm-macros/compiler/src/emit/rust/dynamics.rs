@@ -139,7 +139,7 @@ fn advance(emission: &Emission<'_>, scope: &Scope<'_>, program: &Series) -> Toke
         coefficients: count,
         ..
     } = emission;
-    let (scalar, slots) = (scope.scalar, paths::count(program.slots));
+    let (scalar, slots) = (scope.scalar, series::arrays(program));
     let unrolled = series::unrolled(program);
     let body = series::body(scope, program, States::Own, |index, value| {
         let place = paths::count(index);

@@ -287,7 +287,7 @@ fn advance(
         coefficients: count,
         ..
     } = emission;
-    let (scalar, slots) = (scope.scalar, paths::count(program.series.slots));
+    let (scalar, slots) = (scope.scalar, series::arrays(&program.series));
     let unrolled = series::unrolled(&program.series);
     let body = series::body(scope, &program.series, States::Given, |index, value| {
         let place = paths::count(index);

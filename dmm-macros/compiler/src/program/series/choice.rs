@@ -1,9 +1,9 @@
 //! Which recurrence a node has.
 
 use super::super::lower::Lowered;
-use super::Coefficient;
 use super::recurrence::{Base, Place, Primitive, Recurrence, Shifted};
 use super::slots::{Slot, Slots};
+use super::{Coefficient, Sums};
 use crate::algebra::{Equation, Function, Id, Math};
 
 /// Chooses the recurrences of nodes.
@@ -83,6 +83,8 @@ impl Choice<'_> {
                 exponent: b,
                 own: self.node(id),
                 inverse: place(Slot::Inverse(id)),
+                derivatives: (self.slots.sums == Sums::Rolled)
+                    .then(|| [a, id].map(|one| place(Slot::Derivative(one)))),
             },
             Math::Pow([a, b]) => Recurrence::VariablePower {
                 base: self.base(id, a, b),

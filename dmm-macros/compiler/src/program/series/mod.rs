@@ -10,11 +10,15 @@
 //! order k of a root ẋᵢ = f is the coefficient k + 1 of xᵢ: that of f divided by k + 1.
 
 mod choice;
+mod powers;
 mod recurrence;
 mod scaled;
 mod slots;
+mod tables;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
+
+use egg::Language;
 
 use self::choice::Choice;
 use self::scaled::Scaling;
@@ -23,15 +27,17 @@ use super::function::Functions;
 use super::inputs::{Input, at_point, inputs};
 use super::lower::Lowered;
 use crate::algebra::{Id, Name};
+pub(super) use powers::with_powers;
 pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted, Sum};
 pub use scaled::{Factor, Later, Scaled};
+pub use tables::Tables;
 
 /// Straight-line code up to so many sums of products a coefficient; a loop beyond, which compiles
 /// many times as fast. Time of a step by a loop over straight-line code, at tolerances of 10⁻⁶ and
 /// 10⁻¹² (medians of runs one after the other): elliptic (1 sum) 1.17, 1.31; Hénon–Heiles (3) 1.43,
 /// 1.73; Pöschl–Teller (5) 1.23, 0.91; Kepler (7) 1.03, 0.87; chain of 8 masses (18) 0.82, 0.75; double
 /// pendulum (19) 0.75, 0.61.
-const MOST_STRAIGHT: usize = 6;
+const MOST_STRAIGHT: usize = 5;
 
 /// The recurrences of some roots.
 #[derive(Debug)]
@@ -43,6 +49,8 @@ pub struct Series {
     pub slots: usize,
     /// How the sums over the coefficients are run.
     pub sums: Sums,
+    /// Where generated code has the coefficients.
+    pub tables: Tables,
     /// All operations, in the order in which they are evaluated.
     pub operations: Vec<Id>,
     /// The roots.
@@ -61,6 +69,17 @@ pub enum Sums {
     Straight,
     /// By loops, each over several sums.
     Rolled,
+}
+
+impl Sums {
+    /// Of so many recurrences.
+    fn of(recurrences: usize) -> Self {
+        if recurrences <= MOST_STRAIGHT {
+            Self::Straight
+        } else {
+            Self::Rolled
+        }
+    }
 }
 
 /// Coefficient k of a node.
@@ -102,18 +121,6 @@ impl SeriesResult {
 }
 
 impl Series {
-    /// The sums that are run together, each once: none where they are written out.
-    pub fn joint_sums(&self) -> Vec<Sum> {
-        if self.sums == Sums::Straight {
-            return Vec::new();
-        }
-        let of_nodes = self.coefficients.iter();
-        let of_nodes = of_nodes.flat_map(|one| one.recurrence.sums());
-        let all = of_nodes.chain(self.results.iter().flat_map(SeriesResult::sums));
-        let mut seen = BTreeSet::new();
-        all.filter(|sum| seen.insert(*sum)).collect()
-    }
-
     /// The recurrences of the solution of ẋ = f(t, x).
     pub(super) fn of_solution(functions: &Functions, states: &[Name], field: &[Id]) -> Self {
         let parts = Parts::new(functions, states, field, states.len());
@@ -124,7 +131,7 @@ impl Series {
         });
         let results = results.collect();
         let folded = scaling.folded;
-        parts.series(results, field, &folded)
+        parts.series(results, &folded)
     }
 
     /// The recurrences of some functions along a solution whose coefficients are given.
@@ -132,7 +139,7 @@ impl Series {
         let parts = Parts::new(functions, states, roots, roots.len());
         let results = roots.iter().map(|&root| SeriesResult::Value(root));
         let results = results.collect();
-        parts.series(results, roots, &BTreeSet::new())
+        parts.series(results, &BTreeSet::new())
     }
 }
 
@@ -141,6 +148,7 @@ struct Parts<'a> {
     inputs: Vec<Input>,
     operations: Vec<Id>,
     choice: Choice<'a>,
+    roots: Vec<Id>,
     /// Slots for the states or the values.
     first: usize,
 }
@@ -160,27 +168,52 @@ impl<'a> Parts<'a> {
                 slots: Slots::new(lowered, &inputs, &moving(lowered, roots), first),
             },
             inputs,
+            roots: roots.to_vec(),
             first,
         }
     }
 
+    /// How many operations follow on each other until a node has its coefficient.
+    fn depths(&self) -> HashMap<Id, usize> {
+        let mut depths: HashMap<Id, usize> = HashMap::new();
+        let lowered = self.choice.lowered;
+        for id in moving(lowered, &self.roots) {
+            let below = |one: &Id| depths.get(one).copied().unwrap_or(0);
+            let depth = 1 + lowered.dag()[id]
+                .children()
+                .iter()
+                .map(below)
+                .max()
+                .unwrap_or(0);
+            depths.insert(id, depth);
+        }
+        depths
+    }
+
     /// The series with the coefficients of the nodes that are not `folded`.
-    fn series(self, results: Vec<SeriesResult>, roots: &[Id], folded: &BTreeSet<Id>) -> Series {
-        let moving = moving(self.choice.lowered, roots).into_iter();
+    fn series(self, results: Vec<SeriesResult>, folded: &BTreeSet<Id>) -> Series {
+        let moving = moving(self.choice.lowered, &self.roots).into_iter();
         let moving = moving.filter(|id| !folded.contains(id));
         let slots = &self.choice.slots;
-        let sums = if slots.recurrences <= MOST_STRAIGHT {
-            Sums::Straight
-        } else {
-            Sums::Rolled
+        let sums = slots.sums;
+        let end = self.first + slots.count();
+        let coefficients = self.choice.coefficients(moving);
+        let tables = match sums {
+            Sums::Straight => Tables::none(self.first..end),
+            Sums::Rolled => {
+                let depths = self.depths();
+                let depth = |of: &Coefficient| depths[&of.node];
+                Tables::new(&coefficients, &results, self.first..end, depth)
+            }
         };
         Series {
-            slots: self.first + slots.count(),
+            slots: end,
             sums,
-            coefficients: self.choice.coefficients(moving),
+            tables,
+            coefficients,
             inputs: self.inputs,
             operations: self.operations,
-            roots: roots.to_vec(),
+            roots: self.roots,
             results,
         }
     }

@@ -45,6 +45,8 @@ pub enum Recurrence {
         own: Place,
         /// 1/u at order zero
         inverse: Place,
+        /// h du/dh and h dw/dh, where sums run together
+        derivatives: Option<[Place; 2]>,
     },
     /// w = u^v = e^(v ln u)
     VariablePower {
@@ -154,10 +156,69 @@ impl Recurrence {
             Self::Exponential {
                 derivative, own, ..
             } => vec![Sum::Inner([derivative, own])],
+            Self::Power {
+                base,
+                own,
+                derivatives: Some([du, dw]),
+                ..
+            } => vec![Sum::Inner([own, du]), Sum::Inner([dw, base])],
             Self::Pair {
                 derivative, places, ..
             } => places.map(|place| Sum::Inner([derivative, place])).into(),
             _ => Vec::new(),
+        }
+    }
+
+    /// The series of which it takes more than a sum, the first coefficient and that of order k.
+    pub fn whole_series(&self) -> Vec<Place> {
+        let integral = |of: &Primitive| [of.divisor, of.slope, of.inverse];
+        match *self {
+            Self::Linear | Self::Shifted(_) | Self::Missing => Vec::new(),
+            Self::Square(_) | Self::Product(_) | Self::Computed(_) => Vec::new(),
+            Self::Exponential { .. } | Self::Pair { .. } => Vec::new(),
+            Self::Quotient { inverse, .. } | Self::SquareRoot { inverse, .. } => vec![inverse],
+            Self::Power {
+                derivatives: Some(_),
+                inverse,
+                ..
+            } => vec![inverse],
+            Self::Power {
+                base, own, inverse, ..
+            } => vec![base, own, inverse],
+            Self::VariablePower {
+                base,
+                derivative,
+                own,
+                ..
+            } => match base {
+                Base::Fixed { logarithm, .. } => vec![derivative, own, logarithm],
+                Base::Moving {
+                    base,
+                    exponent,
+                    logarithm,
+                    primitive,
+                } => {
+                    let places = [derivative, own, base, exponent, logarithm];
+                    [&places[..], &integral(&primitive)].concat()
+                }
+            },
+            Self::Tangent {
+                derivative,
+                own,
+                partner,
+                ..
+            } => vec![derivative, own, partner],
+            Self::Logarithm(primitive) => integral(&primitive).into(),
+            Self::ArcTangent {
+                argument,
+                primitive,
+            } => [&[argument][..], &integral(&primitive)].concat(),
+            Self::ArcSine {
+                argument,
+                inverse,
+                primitive,
+                ..
+            } => [&[argument, inverse][..], &integral(&primitive)].concat(),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::inputs::{Input, Variable};
 use super::super::lower::Lowered;
+use super::Sums;
 use super::recurrence::Place;
 use crate::algebra::{Equation, Function, Id, Math};
 
@@ -27,8 +28,8 @@ pub(super) enum Slot {
 pub(super) struct Slots {
     states: BTreeMap<Id, usize>,
     numbers: BTreeMap<Slot, usize>,
-    /// How many nodes have a recurrence.
-    pub(super) recurrences: usize,
+    /// How the sums of the recurrences are run.
+    pub(super) sums: Sums,
 }
 
 impl Slots {
@@ -39,19 +40,23 @@ impl Slots {
             _ => None,
         });
         let states: BTreeMap<Id, usize> = states.collect();
-        let mut recurrences = 0;
-        let mut slots = BTreeSet::new();
-        for &id in moving {
-            let needed = needed(lowered, id);
-            recurrences += usize::from(!needed.is_empty());
-            slots.extend(needed);
+        let needed = moving.iter().map(|&id| needed(lowered, id));
+        let needed: Vec<Vec<Slot>> = needed.filter(|slots| !slots.is_empty()).collect();
+        let sums = Sums::of(needed.len());
+        let mut slots: BTreeSet<Slot> = needed.into_iter().flatten().collect();
+        if sums == Sums::Rolled {
+            let powers = moving.iter().filter_map(|&id| match lowered.dag()[id] {
+                Math::Pow([a, b]) if lowered.is_fixed(b) => Some([a, id].map(Slot::Derivative)),
+                _ => None,
+            });
+            slots.extend(powers.flatten());
         }
         let is_state = |slot: &Slot| matches!(slot, Slot::Node(id) if states.contains_key(id));
         slots.retain(|slot| !is_state(slot));
         Self {
             numbers: slots.into_iter().zip(first..).collect(),
             states,
-            recurrences,
+            sums,
         }
     }
 

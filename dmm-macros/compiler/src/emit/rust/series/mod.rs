@@ -14,7 +14,7 @@ use super::function::Scope;
 use super::names::Names;
 use super::paths;
 use super::store::variable;
-use crate::program::series::{Place, SeriesResult, Sums};
+use crate::program::series::{SeriesResult, Sums};
 use crate::program::{Series, Variable};
 
 /// Where the coefficients of the states are.
@@ -27,17 +27,12 @@ pub(super) enum States {
 }
 
 impl States {
-    /// The array of coefficients at `place`.
-    fn place(self, place: Place) -> TokenStream {
-        match (place, self) {
-            (Place::State(state), Self::Given) => {
-                let state = paths::count(state);
-                quote!(states[#state])
-            }
-            (Place::State(index), Self::Own) | (Place::Slot(index), _) => {
-                let index = paths::count(index);
-                quote!(series[#index])
-            }
+    /// The array of coefficients of a state.
+    fn array(self, state: usize) -> TokenStream {
+        let state = paths::count(state);
+        match self {
+            Self::Given => quote!(states[#state]),
+            Self::Own => quote!(series[#state]),
         }
     }
 }
@@ -50,6 +45,12 @@ pub(super) fn unrolled(series: &Series) -> TokenStream {
     }
 }
 
+/// How many arrays of coefficients there are.
+pub(super) fn arrays(series: &Series) -> TokenStream {
+    let arrays = paths::count(series.tables.arrays());
+    quote!(#arrays)
+}
+
 /// The body of `advance`: coefficient k of every node, and the statements that `keep` the result
 /// of each root, by its number.
 pub(super) fn body(
@@ -59,7 +60,7 @@ pub(super) fn body(
     keep: impl Fn(usize, &TokenStream) -> TokenStream,
 ) -> TokenStream {
     let mut names = Names::reserving([
-        "self", "k", "t", "at", "states", "series", "base", "sine", "cosine",
+        "self", "k", "t", "at", "states", "series", "base", "sine", "cosine", "row",
     ]);
     let mut known = scope.store.known();
     let mut locals = TokenStream::new();
@@ -67,8 +68,8 @@ pub(super) fn body(
         let local = names.take(&variable(scope.lowered, input.node).to_lowercase());
         let value = match input.variable {
             Variable::State(index) => {
-                let place = states.place(Place::State(index));
-                quote!(#place[at])
+                let array = states.array(index);
+                quote!(#array[at])
             }
             _ => quote!(dmm::series::time(k, t)),
         };
@@ -84,11 +85,12 @@ pub(super) fn body(
         &series.operations,
         &series.roots,
     );
-    let mut writer = Writer::new(scope, states, block.fusing(true));
-    writer.joint_sums(series);
+    let mut writer = Writer::new(scope, states, &series.tables, block.fusing(true));
+    writer.sums();
     for coefficient in &series.coefficients {
         writer.coefficient(coefficient);
     }
+    writer.keep_rows();
     let results = results(&mut writer, series, keep);
     let statements = writer.block.statements();
     quote! {

@@ -1,5 +1,6 @@
 //! The coefficients of what is not linear: squares, products, quotients, powers and functions.
 
+use num_traits::ToPrimitive;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
@@ -17,28 +18,33 @@ impl Writer<'_, '_> {
                 let (u, c) = (self.value(u), self.fixed(c));
                 Self::call("plus", &[minus(minus_u, &u), minus(minus_c, &c)])
             }
-            Recurrence::Square(of) => self.with_sum("square", &[self.array(of)], Sum::Half(of)),
-            Recurrence::Product(of) => {
-                let factors = of.map(|place| self.array(place));
-                self.with_sum("product", &factors, Sum::Inner(of))
-            }
+            Recurrence::Square(of) => self.half_sum_of("square", of),
+            Recurrence::Product(of) => self.product(of),
             Recurrence::Quotient {
                 numerator,
                 denominator,
                 own,
                 inverse,
             } => {
-                let (u, v) = (self.value(numerator), self.place(denominator));
-                let inverse = self.inverse(inverse, &quote!(#v[0]));
-                let arguments = [u, quote!(&#v), self.array(own), inverse];
-                self.with_sum("quotient", &arguments, Sum::Inner([denominator, own]))
+                let (u, v) = (self.value(numerator), self.newest(denominator));
+                let inverse = self.inverse(inverse, &v);
+                self.quotient(u, [denominator, own], inverse)
             }
             Recurrence::Power {
                 base,
                 exponent,
                 own,
                 inverse,
-            } => self.power(base, exponent, own, inverse),
+                derivatives,
+            } => {
+                let value = self.power((base, exponent), own, inverse, derivatives);
+                if let Some([_, derivative]) = derivatives {
+                    self.block.define(id, &value);
+                    self.derivative(id, derivative);
+                    return None;
+                }
+                value
+            }
             Recurrence::VariablePower {
                 base,
                 exponent,
@@ -51,7 +57,7 @@ impl Writer<'_, '_> {
 
     /// The reciprocal of `value`, taken at order zero.
     fn inverse(&mut self, place: Place, value: &TokenStream) -> TokenStream {
-        let (slot, scalar) = (self.place(place), self.scope.scalar);
+        let (slot, scalar) = (self.array(place), self.scope.scalar);
         let value = factor(value);
         self.block.push(quote! {
             if at == 0 { #slot[0] = #scalar::from_f64(1.0) / #value; }
@@ -59,21 +65,61 @@ impl Writer<'_, '_> {
         quote!(#slot[0])
     }
 
-    fn power(&mut self, base: Place, exponent: Id, own: Place, inverse: Place) -> TokenStream {
-        let scalar = self.scope.scalar;
-        let integer = self.scope.lowered.dag().as_integer(exponent);
-        let (exponent, u) = (self.fixed(exponent), self.place(base));
-        let inverse = self.inverse(inverse, &quote!(#u[0]));
-        let rest = [quote!(&#u), exponent.clone(), self.array(own), inverse];
-        let rest = Self::call("power", &rest);
-        let start = match integer.map(i32::try_from) {
-            Some(Ok(n)) => {
-                let n = Literal::i32_unsuffixed(n);
-                quote!(#scalar::powi(#u[0], #n))
+    /// u^c, and h du/dh where sums run together.
+    fn power(
+        &mut self,
+        (base, exponent): (Place, Id),
+        own: Place,
+        inverse: Place,
+        derivatives: Option<[Place; 2]>,
+    ) -> TokenStream {
+        let u = self.newest(base);
+        let start = self.power_at_start(&u, exponent);
+        let inverse = self.inverse(inverse, &u);
+        let exponent = self.fixed(exponent);
+        let later = match derivatives {
+            Some([du, dw]) => {
+                let d = Self::call("derivative", &[u]);
+                self.set(du, &d);
+                let [first, second] = [Sum::Inner([own, du]), Sum::Inner([dw, base])]
+                    .map(|sum| self.sums.get(&sum).cloned().unwrap_or_default());
+                let (d, w) = (self.newest(du), self.first(own));
+                let sums = quote!([#first, #second]);
+                Self::call("power_from", &[d, exponent, w, inverse, sums])
             }
-            _ => quote!(#scalar::powf(#u[0], #exponent)),
+            None => {
+                let [u, w] = [base, own].map(|place| self.array(place));
+                Self::call("power", &[quote!(&#u), exponent, quote!(&#w), inverse])
+            }
         };
-        quote!(if at == 0 { #start } else { #rest })
+        quote!(if at == 0 { #start } else { #later })
+    }
+
+    /// u^c at order zero: by products and a root where c is a half of an integer.
+    fn power_at_start(&mut self, u: &TokenStream, exponent: Id) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let value = self.scope.lowered.dag().as_constant(exponent);
+        let halves = value.and_then(|value| (value * value.denom()).to_integer().to_i32());
+        let is_half = value.is_some_and(|value| value.denom().to_i32() == Some(2));
+        match (halves, value.is_some_and(|value| value.is_integer())) {
+            (Some(n), true) => {
+                let n = Literal::i32_unsuffixed(n);
+                quote!(#scalar::powi(#u, #n))
+            }
+            (Some(n), false) if is_half => {
+                let whole = Literal::i32_unsuffixed(n.abs() / 2);
+                let power = quote!(#scalar::powi(#u, #whole) * #scalar::sqrt(#u));
+                if n < 0 {
+                    quote!(#scalar::from_f64(1.0) / (#power))
+                } else {
+                    power
+                }
+            }
+            _ => {
+                let exponent = self.fixed(exponent);
+                quote!(#scalar::powf(#u, #exponent))
+            }
+        }
     }
 
     /// u^v = e^(v ln u), v changing with the time.
@@ -84,7 +130,7 @@ impl Writer<'_, '_> {
         derivative: Place,
         own: Place,
     ) -> TokenStream {
-        let (scalar, d) = (self.scope.scalar, self.place(derivative));
+        let (scalar, d) = (self.scope.scalar, self.array(derivative));
         let exponent = self.value(exponent);
         let (base, logarithm_times) = match base {
             Base::Moving {
@@ -93,14 +139,13 @@ impl Writer<'_, '_> {
                 logarithm,
                 primitive,
             } => {
-                let (u, ln) = (self.place(base), self.place(logarithm));
+                let (u, ln) = (self.array(base), self.array(logarithm));
                 let value = self.primitive(&primitive, &quote!(#scalar::ln(#u[0])));
                 self.block.push(quote!(#ln[at] = #value;));
-                let factors = [self.array(exponent), quote!(&#ln)];
-                (quote!(#u[0]), Self::call("product", &factors))
+                (quote!(#u[0]), self.product([exponent, logarithm]))
             }
             Base::Fixed { base, logarithm } => {
-                let (base, slot) = (self.fixed(base), self.place(logarithm));
+                let (base, slot) = (self.fixed(base), self.array(logarithm));
                 self.block
                     .push(quote!(if at == 0 { #slot[0] = #scalar::ln(#base); }));
                 (base, product(&exponent, &quote!(#slot[0])))
@@ -108,16 +153,15 @@ impl Writer<'_, '_> {
         };
         let value = Self::call("derivative", &[logarithm_times]);
         self.block.push(quote!(#d[at] = #value;));
-        let later = Self::call("integral", &[quote!(&#d), self.array(own)]);
+        let later = self.integral(derivative, own);
         quote!(if at == 0 { #scalar::powf(#base, #exponent) } else { #later })
     }
 
     /// h du/dh
-    fn derivative(&mut self, argument: Id, place: Place) -> TokenStream {
-        let (u, slot) = (self.value(argument), self.place(place));
+    fn derivative(&mut self, argument: Id, place: Place) {
+        let u = self.value(argument);
         let value = Self::call("derivative", &[u]);
-        self.block.push(quote!(#slot[at] = #value;));
-        slot
+        self.set(place, &value);
     }
 
     /// The recurrence of a function.
@@ -179,12 +223,6 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// The coefficient of order k at `place`.
-    fn newest(&self, place: Place) -> TokenStream {
-        let place = self.place(place);
-        quote!(#place[at])
-    }
-
     /// The value of a function at order zero.
     fn start(&mut self, function: Function, argument: Id) -> TokenStream {
         let (scalar, method) = (self.scope.scalar, format_ident!("{}", function.name()));
@@ -198,8 +236,7 @@ impl Writer<'_, '_> {
         let value = self.value(argument);
         let root = quote!(#scalar::sqrt(#value));
         let inverse = self.inverse(inverse, &quote!(#scalar::from_f64(2.0) * #root));
-        let arguments = [value, self.array(own), inverse];
-        let later = self.with_sum("square_root", &arguments, Sum::Half(own));
+        let later = self.root(value, own, inverse);
         quote!(if at == 0 { #root } else { #later })
     }
 
@@ -227,10 +264,10 @@ impl Writer<'_, '_> {
     ) -> TokenStream {
         let scalar = self.scope.scalar;
         let start = self.start(function, argument);
-        let d = self.derivative(argument, derivative);
-        let (w, v) = (self.place(own), self.place(partner));
-        let value = Self::call("integral", &[quote!(&#d), quote!(&#v)]);
-        let square = Self::call("square", &[quote!(&#w)]);
+        self.derivative(argument, derivative);
+        let (w, v) = (self.array(own), self.array(partner));
+        let value = self.integral(derivative, partner);
+        let square = self.half_sum_of("square", own);
         let one = quote!(#scalar::from_f64(1.0));
         let partner = Self::call("plus", &[minus(is_negative, &square), one]);
         self.block.push(quote! {
@@ -244,8 +281,8 @@ impl Writer<'_, '_> {
     fn arc_tangent(&mut self, argument: Place, primitive: &Primitive) -> TokenStream {
         let scalar = self.scope.scalar;
         let start = self.start(Function::Atan, primitive.argument);
-        let v = self.place(primitive.divisor);
-        let square = Self::call("square", &[self.array(argument)]);
+        let v = self.array(primitive.divisor);
+        let square = self.half_sum_of("square", argument);
         let value = Self::call("plus", &[square, quote!(#scalar::from_f64(1.0))]);
         self.block.push(quote!(#v[at] = #value;));
         self.primitive(primitive, &start)
@@ -261,14 +298,14 @@ impl Writer<'_, '_> {
     ) -> TokenStream {
         let scalar = self.scope.scalar;
         let start = self.start(function, primitive.argument);
-        let v = self.place(primitive.divisor);
-        let square = Self::call("square", &[self.array(argument)]);
+        let v = self.array(primitive.divisor);
+        let square = self.half_sum_of("square", argument);
         let one = quote!(#scalar::from_f64(1.0));
         let base = Self::call("plus", &[minus(true, &square), one]);
         self.block.push(quote!(let base = #base;));
         let twice = quote!(#scalar::from_f64(2.0) * #scalar::sqrt(base));
         let inverse = self.inverse(inverse, &twice);
-        let later = Self::call("square_root", &[quote!(base), quote!(&#v), inverse]);
+        let later = self.root(quote!(base), primitive.divisor, inverse);
         self.block.push(quote! {
             #v[at] = if at == 0 { #scalar::sqrt(base) } else { #later };
         });
@@ -285,24 +322,22 @@ impl Writer<'_, '_> {
     ) {
         let [sine, cosine] = functions.map(|one| self.start(one, argument));
         self.derivative(argument, derivative);
-        let [s, c] = places.map(|place| self.place(place));
         let [next_cosine, next_sine] = places.map(|place| self.integral(derivative, place));
         let next_cosine = minus(is_negative, &next_cosine);
+        let names = functions.map(|one| self.block.fresh(one.name()));
+        let [s, c] = &names;
         self.block.push(quote! {
-            let (sine, cosine) = if at == 0 {
-                (#sine, #cosine)
-            } else {
-                (#next_sine, #next_cosine)
-            };
-            #s[at] = sine;
-            #c[at] = cosine;
+            let (#s, #c) = if at == 0 { (#sine, #cosine) } else { (#next_sine, #next_cosine) };
         });
+        for (place, name) in places.into_iter().zip(names) {
+            self.set(place, &quote!(#name));
+        }
     }
 
     /// w = ±∫ du/v
     fn primitive(&mut self, primitive: &Primitive, start: &TokenStream) -> TokenStream {
         let scalar = self.scope.scalar;
-        let (e, v) = (self.place(primitive.slope), self.place(primitive.divisor));
+        let (e, v) = (self.array(primitive.slope), self.array(primitive.divisor));
         let inverse = self.inverse(primitive.inverse, &quote!(#v[0]));
         let value = self.value(primitive.argument);
         let derivative = Self::call("derivative", &[minus(primitive.is_negative, &value)]);

@@ -1,61 +1,144 @@
-//! The sums over the coefficients of lower order, several in one loop: none of them waits for another,
-//! and what a loop takes beside its products it takes once.
+//! The sums over the coefficients of lower order, in the lanes of tables: none of them waits for another,
+//! and what a loop takes beside its products it takes once. What a recurrence takes beside its sum are
+//! the first coefficients and those of order k.
 
-use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use std::ops::Range;
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
 
 use super::writer::Writer;
-use crate::program::Series;
+use crate::emit::rust::paths;
 use crate::program::series::{Place, Sum};
-
-/// As many sums in a loop stay in the registers of a processor.
-const MOST_TOGETHER: usize = 4;
 
 impl Writer<'_, '_> {
     /// Computes the sums that the recurrences take.
-    pub(super) fn joint_sums(&mut self, series: &Series) {
-        let (mut inner, mut half) = (Vec::new(), Vec::new());
-        let sums = series.joint_sums();
-        for sum in &sums {
-            match *sum {
-                Sum::Inner([u, v]) => {
-                    let (u, v) = (self.array(u), self.array(v));
-                    inner.push((*sum, quote!([#u, #v])));
-                }
-                Sum::Half(u) => half.push((*sum, self.array(u))),
+    pub(super) fn sums(&mut self) {
+        let [first, second, half] = self.tables.ranges();
+        let inner = self.tables.inner.iter().map(|&of| Sum::Inner(of));
+        self.sums_of("inner_sums", first.start..second.end, first.len(), inner);
+        let halves = self.tables.half.iter().map(|&of| Sum::Half(of));
+        self.sums_of("half_sums", half.clone(), half.len(), halves);
+    }
+
+    /// Sums of one kind, from the tables at `range`.
+    fn sums_of(
+        &mut self,
+        name: &str,
+        range: Range<usize>,
+        lanes: usize,
+        sums: impl Iterator<Item = Sum>,
+    ) {
+        if lanes == 0 {
+            return;
+        }
+        let names = self.block.fresh("sums");
+        let (scalar, function) = (self.scope.scalar, format_ident!("{name}"));
+        let [from, to, lanes] = [range.start, range.end, lanes].map(paths::count);
+        self.block.push(quote! {
+            let #names: [#scalar; #lanes] = dmm::series::#function(k, &series[#from..#to]);
+        });
+        self.sums.extend(sums.enumerate().map(|(lane, sum)| {
+            let lane = paths::count(lane);
+            (sum, quote!(#names[#lane]))
+        }));
+    }
+
+    /// Keeps the coefficients of order k in the tables.
+    pub(super) fn keep_rows(&mut self) {
+        let tables = self.tables;
+        for (column, range) in tables.columns().iter().zip(tables.ranges()) {
+            if column.is_empty() {
+                continue;
             }
-        }
-        self.joined("inner_sums", &inner);
-        self.joined("half_sums", &half);
-    }
-
-    /// Sums of one kind.
-    fn joined(&mut self, name: &str, sums: &[(Sum, TokenStream)]) {
-        let groups = sums.len().div_ceil(MOST_TOGETHER).max(1);
-        for group in sums.chunks(sums.len().div_ceil(groups).max(1)) {
-            let of = group.iter().map(|(_, of)| of);
-            let value = Self::call(name, &[quote!([#(#of),*])]);
-            let names: Vec<Ident> = group.iter().map(|_| self.block.fresh("sum")).collect();
-            self.block.push(quote!(let [#(#names),*] = #value;));
-            self.sums
-                .extend(group.iter().map(|(sum, _)| *sum).zip(names));
+            let [from, to] = [range.start, range.end].map(paths::count);
+            let row = column.iter().map(|&place| self.newest(place));
+            self.block.push(quote! {
+                let row = [#(#row),*];
+                dmm::series::set_row(k, &mut series[#from..#to], row);
+            });
         }
     }
 
-    /// A recurrence that takes a sum: from it where it is known.
-    pub(super) fn with_sum(&self, name: &str, arguments: &[TokenStream], sum: Sum) -> TokenStream {
-        match self.sums.get(&sum) {
+    /// The first and the newest coefficient of a series.
+    fn ends(&self, place: Place) -> TokenStream {
+        let (first, newest) = (self.first(place), self.newest(place));
+        quote!([#first, #newest])
+    }
+
+    /// Coefficient k of uv.
+    pub(super) fn product(&self, of: [Place; 2]) -> TokenStream {
+        match self.sums.get(&Sum::Inner(of)) {
             Some(sum) => {
-                let arguments = [arguments, &[quote!(#sum)]].concat();
-                Self::call(&format!("{name}_from"), &arguments)
+                let [u, v] = of.map(|place| self.ends(place));
+                Self::call("product_from", &[u, v, sum.clone()])
             }
-            None => Self::call(name, arguments),
+            None => {
+                let [u, v] = of.map(|place| self.array(place));
+                Self::call("product", &[quote!(&#u), quote!(&#v)])
+            }
+        }
+    }
+
+    /// Coefficient k of u² or u²/2, by the function of this name.
+    pub(super) fn half_sum_of(&self, name: &str, of: Place) -> TokenStream {
+        match self.sums.get(&Sum::Half(of)) {
+            Some(sum) => {
+                let (ends, middle) = (self.ends(of), self.earlier(of, &quote!(at / 2)));
+                Self::call(&format!("{name}_from"), &[ends, middle, sum.clone()])
+            }
+            None => {
+                let u = self.array(of);
+                Self::call(name, &[quote!(&#u)])
+            }
+        }
+    }
+
+    /// Coefficient k of w = u/v from uₖ.
+    pub(super) fn quotient(
+        &self,
+        numerator: TokenStream,
+        [denominator, own]: [Place; 2],
+        inverse: TokenStream,
+    ) -> TokenStream {
+        match self.sums.get(&Sum::Inner([denominator, own])) {
+            Some(sum) => {
+                let (v, w) = (self.newest(denominator), self.first(own));
+                let arguments = [numerator, v, w, inverse, sum.clone()];
+                Self::call("quotient_from", &arguments)
+            }
+            None => {
+                let [v, w] = [denominator, own].map(|place| self.array(place));
+                Self::call("quotient", &[numerator, quote!(&#v), quote!(&#w), inverse])
+            }
+        }
+    }
+
+    /// Coefficient k ≥ 1 of w = √u from uₖ.
+    pub(super) fn root(&self, value: TokenStream, own: Place, inverse: TokenStream) -> TokenStream {
+        match self.sums.get(&Sum::Half(own)) {
+            Some(sum) => {
+                let middle = self.earlier(own, &quote!(at / 2));
+                Self::call("square_root_from", &[value, middle, inverse, sum.clone()])
+            }
+            None => {
+                let w = self.array(own);
+                Self::call("square_root", &[value, quote!(&#w), inverse])
+            }
         }
     }
 
     /// Coefficient k ≥ 1 of ∫ v du from d = h du/dh.
     pub(super) fn integral(&self, derivative: Place, of: Place) -> TokenStream {
-        let arguments = [self.array(derivative), self.array(of)];
-        self.with_sum("integral", &arguments, Sum::Inner([derivative, of]))
+        match self.sums.get(&Sum::Inner([derivative, of])) {
+            Some(sum) => {
+                let (d, v) = (self.newest(derivative), self.first(of));
+                Self::call("integral_from", &[d, v, sum.clone()])
+            }
+            None => {
+                let [d, v] = [derivative, of].map(|place| self.array(place));
+                Self::call("integral", &[quote!(&#d), quote!(&#v)])
+            }
+        }
     }
 }

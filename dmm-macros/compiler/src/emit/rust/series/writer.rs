@@ -9,26 +9,37 @@ use super::States;
 use crate::algebra::Id;
 use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
-use crate::program::series::{Coefficient, Factor, Later, Place, Scaled, Sum};
+use crate::emit::rust::paths;
+use crate::program::series::{Coefficient, Factor, Later, Place, Scaled, Sum, Tables};
 
 /// Writes the coefficient of one node after the other.
 pub(super) struct Writer<'a, 'b> {
     pub(super) scope: &'b Scope<'a>,
     pub(super) block: Block<'b>,
+    pub(super) tables: &'b Tables,
     states: States,
+    /// The coefficients of order k that are known.
+    newest: BTreeMap<Place, TokenStream>,
     /// The names of the halves of squares.
     halves: BTreeMap<Id, Ident>,
-    /// The names of the sums that are known.
-    pub(super) sums: BTreeMap<Sum, Ident>,
+    /// The sums that are known.
+    pub(super) sums: BTreeMap<Sum, TokenStream>,
 }
 
 impl<'a, 'b> Writer<'a, 'b> {
     /// One that writes into `block`.
-    pub(super) fn new(scope: &'b Scope<'a>, states: States, block: Block<'b>) -> Self {
+    pub(super) fn new(
+        scope: &'b Scope<'a>,
+        states: States,
+        tables: &'b Tables,
+        block: Block<'b>,
+    ) -> Self {
         Self {
             scope,
             block,
+            tables,
             states,
+            newest: BTreeMap::new(),
             halves: BTreeMap::new(),
             sums: BTreeMap::new(),
         }
@@ -39,15 +50,66 @@ impl<'a, 'b> Writer<'a, 'b> {
         quote!(dmm::series::#name(k, #(#arguments),*))
     }
 
-    /// The array of coefficients at `place`.
-    pub(super) fn place(&self, place: Place) -> TokenStream {
-        self.states.place(place)
+    /// The array of the coefficients of a series that has one.
+    pub(super) fn array(&self, place: Place) -> TokenStream {
+        match place {
+            Place::State(state) => self.states.array(state),
+            Place::Slot(slot) => match self.tables.array(place) {
+                Some(array) => {
+                    let array = paths::count(array);
+                    quote!(series[#array])
+                }
+                None => {
+                    let message = format!("no array of series {slot}");
+                    quote!(compile_error!(#message))
+                }
+            },
+        }
     }
 
-    /// A reference to the array of coefficients at `place`.
-    pub(super) fn array(&self, place: Place) -> TokenStream {
-        let place = self.place(place);
-        quote!(&#place)
+    /// A coefficient below order k.
+    pub(super) fn earlier(&self, place: Place, order: &TokenStream) -> TokenStream {
+        let is_state = matches!(place, Place::State(_));
+        match self.tables.lane(place) {
+            Some(lane) if !is_state && self.tables.array(place).is_none() => {
+                let [from, to, number] =
+                    [lane.table.start, lane.table.end, lane.number].map(paths::count);
+                let lanes = paths::count(lane.table.len());
+                quote!(dmm::series::row::<_, _, #lanes>(&series[#from..#to], #order)[#number])
+            }
+            _ => {
+                let array = self.array(place);
+                quote!(#array[#order])
+            }
+        }
+    }
+
+    /// The first coefficient of a series, where k is not zero.
+    pub(super) fn first(&self, place: Place) -> TokenStream {
+        self.earlier(place, &quote!(0))
+    }
+
+    /// The coefficient of order k of a series.
+    pub(super) fn newest(&self, place: Place) -> TokenStream {
+        match self.newest.get(&place) {
+            Some(value) => value.clone(),
+            None => self.earlier(place, &quote!(at)),
+        }
+    }
+
+    /// Sets the coefficient of order k of a slot.
+    pub(super) fn set(&mut self, place: Place, value: &TokenStream) {
+        let mut value = value.clone();
+        if self.tables.array(place).is_some() {
+            let array = self.array(place);
+            self.block.push(quote!(#array[at] = #value;));
+            value = quote!(#array[at]);
+        } else if !is_name(&value) {
+            let name = self.block.fresh("c");
+            self.block.push(quote!(let #name = #value;));
+            value = quote!(#name);
+        }
+        self.newest.insert(place, value);
     }
 
     /// The coefficient of a node, a constant's too.
@@ -73,10 +135,9 @@ impl<'a, 'b> Writer<'a, 'b> {
             self.block.define(id, &value);
         }
         if let Some(slot) = coefficient.kept {
-            let place = self.place(Place::Slot(slot));
             self.block.name_value(id);
             let value = self.block.value(id);
-            self.block.push(quote!(#place[at] = #value;));
+            self.set(Place::Slot(slot), &value);
         }
     }
 
@@ -118,7 +179,7 @@ impl<'a, 'b> Writer<'a, 'b> {
         if let Some(half) = self.halves.get(&node) {
             return half.clone();
         }
-        let value = self.with_sum("half_square", &[self.array(of)], Sum::Half(of));
+        let value = self.half_sum_of("half_square", of);
         let half = self.block.fresh("half");
         self.block.push(quote!(let #half = #value;));
         self.halves.insert(node, half.clone());
@@ -145,6 +206,15 @@ impl<'a, 'b> Writer<'a, 'b> {
         }
         self.scaled(&later.value, scale)
     }
+}
+
+/// Whether it is a name.
+fn is_name(tokens: &TokenStream) -> bool {
+    let mut trees = tokens.clone().into_iter();
+    matches!(
+        (trees.next(), trees.next()),
+        (Some(TokenTree::Ident(_)), None)
+    )
 }
 
 /// In parentheses if it is no single factor.

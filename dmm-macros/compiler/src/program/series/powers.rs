@@ -1,0 +1,64 @@
+//! Quotients by powers that have roots in them, as products with powers: u/(v √v) is u v^(−3/2), whose
+//! recurrence takes the place of those of the root, of the product and of the quotient.
+
+use std::collections::HashMap;
+
+use egg::Language;
+use num_traits::One;
+
+use crate::algebra::{Function, Id, Math, Rational};
+use crate::program::Lowered;
+
+/// The roots with such quotients as products.
+pub(in crate::program) fn with_powers(lowered: &mut Lowered, roots: &[Id]) -> Vec<Id> {
+    let mut image: HashMap<Id, Id> = HashMap::new();
+    for id in lowered.order(roots, |_| false) {
+        let node = lowered.dag()[id]
+            .clone()
+            .map_children(|child| image[&child]);
+        let new = match (lowered.is_fixed(id), node) {
+            (true, _) => id,
+            (false, Math::Div([a, b])) => product_with_power(lowered, a, b)
+                .unwrap_or_else(|| lowered.insert(Math::Div([a, b]))),
+            (false, node) => lowered.insert(node),
+        };
+        image.insert(id, new);
+    }
+    roots.iter().map(|root| image[root]).collect()
+}
+
+/// a v^(−p), where b = v^p with p = 3/2, 5/2, …
+fn product_with_power(lowered: &mut Lowered, a: Id, b: Id) -> Option<Id> {
+    let (base, exponent) = power(lowered, b);
+    let half = |numerator: i64| Rational::new(numerator.into(), 2.into());
+    if exponent.is_integer() || exponent < half(3) || lowered.is_fixed(base) {
+        return None;
+    }
+    let exponent = lowered.insert(Math::Constant(-exponent));
+    let power = lowered.insert(Math::Pow([base, exponent]));
+    let is_one = lowered.dag().as_constant(a).is_some_and(One::is_one);
+    Some(if is_one {
+        power
+    } else {
+        lowered.insert(Math::Mul([a, power]))
+    })
+}
+
+/// Base and exponent of a node as a power.
+fn power(lowered: &Lowered, id: Id) -> (Id, Rational) {
+    match lowered.dag()[id] {
+        Math::Call(Function::Sqrt, a) => {
+            let (base, exponent) = power(lowered, a);
+            (base, exponent / Rational::from_integer(2.into()))
+        }
+        Math::Mul([a, b]) => {
+            let ((base, p), (other, q)) = (power(lowered, a), power(lowered, b));
+            if base == other {
+                (base, p + q)
+            } else {
+                (id, Rational::one())
+            }
+        }
+        _ => (id, Rational::one()),
+    }
+}

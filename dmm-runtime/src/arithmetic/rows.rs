@@ -1,0 +1,84 @@
+//! Sums of products by column, over rows of numbers: several sums at once.
+
+use wide::f64x4;
+
+use super::Scalar;
+
+/// Columns at a time, at least.
+pub(crate) const COLUMNS: usize = 4;
+
+/// Σ aⱼ bₙ₋₁₋ⱼ over n rows of W numbers, by column.
+#[inline(always)]
+pub(crate) fn products<S: Scalar, const W: usize>(a: &[S], b: &[S]) -> [S; W] {
+    let mut sums = [S::from_f64(0.0); W];
+    for at in (0..W).step_by(COLUMNS) {
+        let mut some = [S::from_f64(0.0); COLUMNS];
+        for_rows::<S, W>(a, b, |a, b| {
+            for (column, sum) in some.iter_mut().enumerate() {
+                *sum = a[at + column].fused(b[at + column], *sum);
+            }
+        });
+        sums[at..at + COLUMNS].copy_from_slice(&some);
+    }
+    sums
+}
+
+/// The same of doubles, by vectors: as many as stay in the registers of a processor.
+#[inline(always)]
+pub(crate) fn products_by_vectors<const W: usize>(a: &[f64], b: &[f64]) -> [f64; W] {
+    const MOST: usize = 4 * COLUMNS;
+    let mut sums = [0.0; W];
+    let mut at = 0;
+    while W - at >= MOST {
+        vectors::<W, 4>(a, b, at, &mut sums);
+        at += MOST;
+    }
+    match const { W % MOST / COLUMNS } {
+        1 => vectors::<W, 1>(a, b, at, &mut sums),
+        2 => vectors::<W, 2>(a, b, at, &mut sums),
+        3 => vectors::<W, 3>(a, b, at, &mut sums),
+        _ => {}
+    }
+    sums
+}
+
+/// V vectors of columns from `at` on.
+#[inline(always)]
+fn vectors<const W: usize, const V: usize>(a: &[f64], b: &[f64], at: usize, sums: &mut [f64; W]) {
+    let mut some = [f64x4::ZERO; V];
+    for_rows::<f64, W>(a, b, |a, b| {
+        for (vector, sum) in some.iter_mut().enumerate() {
+            let at = at + COLUMNS * vector;
+            *sum = load(a, at).mul_add(load(b, at), *sum);
+        }
+    });
+    for (vector, sum) in some.into_iter().enumerate() {
+        let at = at + COLUMNS * vector;
+        sums[at..at + COLUMNS].copy_from_slice(&sum.to_array());
+    }
+}
+
+/// Goes through the rows of a, and those of b the other way round. The first and the last come at the end:
+/// one of the two was written last, by parts, and can be read as a whole after a while.
+#[inline(always)]
+fn for_rows<S, const W: usize>(a: &[S], b: &[S], mut each: impl FnMut(&[S; W], &[S; W])) {
+    const { assert!(W.is_multiple_of(COLUMNS)) };
+    let (a, b) = (a.as_chunks().0, b.as_chunks().0);
+    if let ([first, middle @ ..], [.., last]) = (a, b) {
+        if let ([middle @ .., last], [first, turned @ ..]) = (middle, b) {
+            let turned = &turned[..middle.len()];
+            for (a, b) in middle.iter().zip(turned.iter().rev()) {
+                each(a, b);
+            }
+            each(last, first);
+        }
+        each(first, last);
+    }
+}
+
+#[inline(always)]
+fn load<const W: usize>(row: &[f64; W], at: usize) -> f64x4 {
+    let mut vector = [0.0; COLUMNS];
+    vector.copy_from_slice(&row[at..at + COLUMNS]);
+    f64x4::from(vector)
+}
