@@ -11,10 +11,40 @@ use crate::arithmetic::{Matrix, Vector};
 /// Up to here the inverse has a closed form.
 const LARGEST_CLOSED: usize = 4;
 
+/// Terms from which on they are taken together in parts.
+const MANY: usize = 16;
+
 /// a·b
 #[inline(always)]
 pub(crate) fn dot<S: Scalar, const N: usize>(a: &Vector<S, N>, b: &Vector<S, N>) -> S {
-    (1..N).fold(a[0] * b[0], |sum, i| a[i].fused(b[i], sum))
+    if const { N < MANY } {
+        return (1..N).fold(a[0] * b[0], |sum, i| a[i].fused(b[i], sum));
+    }
+    let sum = |sum: S, i: usize| a[i].fused(b[i], sum);
+    together::<S, N>(S::from_f64(0.0), sum, |a, b| a + b)
+}
+
+/// What `with` makes of `start` and one i < N after the other; of many in four parts that do not wait for
+/// each other, which are `joined`.
+#[inline(always)]
+pub(crate) fn together<T: Copy, const N: usize>(
+    start: T,
+    with: impl Fn(T, usize) -> T,
+    joined: impl Fn(T, T) -> T,
+) -> T {
+    const PARTS: usize = 4;
+    if const { N < MANY } {
+        return (0..N).fold(start, with);
+    }
+    let mut parts = [start; PARTS];
+    let whole = N - N % PARTS;
+    for first in (0..whole).step_by(PARTS) {
+        for (part, value) in parts.iter_mut().enumerate() {
+            *value = with(*value, first + part);
+        }
+    }
+    let [a, b, c, d] = parts;
+    (whole..N).fold(joined(joined(a, c), joined(b, d)), with)
 }
 
 /// The solution of A·s = b; nothing if A is singular or not finite.
@@ -94,7 +124,7 @@ fn subtract<const N: usize>(column: &mut [f64; N], factors: &[f64; N], k: usize)
 #[inline]
 pub(crate) fn is_finite<const N: usize>(x: &Vector<f64, N>) -> bool {
     // 0·u is 0 for a finite u and NaN otherwise: one comparison for the whole vector
-    x.iter().fold(0.0, |sum, u| sum + 0.0 * u) == 0.0
+    together::<f64, N>(0.0, |sum, i| sum + 0.0 * x[i], |a, b| a + b) == 0.0
 }
 
 #[cfg(test)]

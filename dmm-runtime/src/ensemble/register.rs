@@ -5,9 +5,9 @@ use crate::arithmetic::masked::{Mask, Masked};
 use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::Vector;
 
-/// Trajectories that are stepped together: the vectors of four doubles that most processors
-/// have.
-pub(super) const WIDTH: usize = 4;
+/// Trajectories that are stepped together: two vectors of four doubles, of which one is computed
+/// with while the other waits, or one of eight where the processor has such.
+pub(super) const WIDTH: usize = 8;
 
 /// A truth value of each trajectory.
 pub(super) type WideMask = LaneMask<WIDTH>;

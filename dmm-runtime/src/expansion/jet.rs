@@ -63,7 +63,7 @@ pub(crate) fn expand<S: Scalar, F, U: Unroll, const N: usize, const M: usize, co
 ) where
     F: Dynamics<S, N, M>,
 {
-    for (component, &x) in series.as_mut().iter_mut().zip(x) {
+    for (component, &x) in series.as_mut().iter_mut().zip(x.as_slice()) {
         component[0] = x;
     }
     let mut solution = Solution {
@@ -270,7 +270,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
         if h > LONGEST {
             return self.long_increment(h);
         }
-        for (sum, series) in sum.iter_mut().zip(self.coefficients()) {
+        for (sum, series) in sum.as_mut_slice().iter_mut().zip(self.coefficients()) {
             *sum = increment(series, h);
         }
         sum

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::factors::Factors;
 use crate::arithmetic::MinimalNorm;
+use crate::arithmetic::linear::together;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::contract::{Matrix, Vector};
 
@@ -34,7 +35,8 @@ impl<const N: usize, S: Masked> Weights<N, S> {
         let one = S::from_f64(1.0);
         let squares = vector(|i| displacement[i].fused(displacement[i], x[i] * x[i]));
         let least = S::from_f64(f64::MIN_POSITIVE);
-        let largest = (0..N).fold(least, |largest, i| largest.max(squares[i]));
+        let larger = |largest: S, i: usize| largest.max(squares[i]);
+        let largest = together::<S, N>(least, larger, S::max);
         let above = largest.above(S::from_f64(USUAL.start));
         let usual = above.and(S::from_f64(USUAL.end).above(largest));
         let weights = Self {
