@@ -31,6 +31,14 @@ PROBLEMS = [
     "poschl_teller",
     "double_pendulum",
     "three_body",
+    "chain_4",
+    "chain_8",
+    "chain_16",
+    "chain_32",
+    "chain_64",
+    "planets_5",
+    "planets_8",
+    "outer_planets",
 ]
 LEVELS = [1e-3, 1e-6, 1e-9, 1e-12]
 TOLERANCES = [10 ** (-k / 2) for k in range(4, 32)]

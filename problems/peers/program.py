@@ -1,4 +1,4 @@
-"""Integrators in a program that is asked line by line: the library's (../examples/timed.rs) and
+"""Integrators in a program that is asked line by line: the library's (../examples/timed) and
 the peers written in Rust (rust/src/main.rs)."""
 
 import json

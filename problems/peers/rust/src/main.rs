@@ -1,5 +1,5 @@
 //! Integrators in Rust on the problems of this repository, timed on request as the library is:
-//! see `examples/timed.rs` in `problems` for the protocol, of which `schemes` and `run` are
+//! see `examples/timed` in `problems` for the protocol, of which `schemes` and `run` are
 //! answered.
 
 mod differential_equations;

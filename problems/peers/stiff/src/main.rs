@@ -1,5 +1,5 @@
 //! Stiff problems by this library and by others, timed on request: reads and writes lines, as
-//! `examples/timed.rs` of `problems` does.
+//! `examples/timed` of `problems` does.
 //!
 //! | request | answer, one line of JSON |
 //! |---|---|

@@ -13,6 +13,13 @@
 //! `{"error": "…"}`. A run starts from the problem's initial value, and what is timed is all of
 //! it: nothing is kept from one to the next. Seconds are of the thread's processor time, which
 //! other work on the machine lengthens little.
+//!
+//! With the feature `compiled` there are larger systems too, for Taylor's method, and
+//! `cargo run --release -p dmm-problems --features compiled --example timed -- chains` prints the time of a
+//! step of chains by their number of states.
+
+#[cfg(feature = "compiled")]
+mod large;
 
 use std::error::Error;
 use std::io::{BufRead, Write};
@@ -30,6 +37,10 @@ use dmm_problems::registry;
 use serde_json::{Value, json};
 
 fn main() -> Result<(), Box<dyn Error>> {
+    #[cfg(feature = "compiled")]
+    if std::env::args().nth(1).as_deref() == Some("chains") {
+        return chains();
+    }
     let mut out = std::io::stdout().lock();
     for line in std::io::stdin().lock().lines() {
         let line = line?;
@@ -42,6 +53,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
+    #[cfg(feature = "compiled")]
+    if let [_, name, ..] = words
+        && let Some(large) = large::Large::find(name)
+    {
+        return of_large(large, words);
+    }
     match words {
         ["schemes"] => Ok(schemes()),
         ["describe", name] => describe(&registry::find(name)?),
@@ -58,6 +75,61 @@ fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
         }
         _ => Err(format!("no such request: {}", words.join(" ")).into()),
     }
+}
+
+/// The answer to what is asked of a larger system.
+#[cfg(feature = "compiled")]
+fn of_large(large: &large::Large, words: &[&str]) -> Result<Value, Box<dyn Error>> {
+    match words {
+        ["describe", _] => describe(&large.problem()?),
+        ["run", _, "taylor", control, t_end, repeats] => {
+            let tolerance = control.strip_prefix("tolerance=").ok_or("no tolerance")?;
+            let (tolerance, t_end) = (tolerance.parse()?, t_end.parse()?);
+            let finishes = (0..repeats.parse::<usize>()?.max(1))
+                .map(|_| large.integrate(tolerance, t_end))
+                .collect::<Result<Vec<_>, _>>()?;
+            let last = finishes.last().ok_or("nothing was run")?;
+            let seconds = finishes.iter().map(|finish| finish.time.as_secs_f64());
+            Ok(json!({
+                "x": last.x,
+                "steps": last.steps,
+                "transitions": 0,
+                "seconds": seconds.collect::<Vec<f64>>(),
+            }))
+        }
+        _ => Err("no problem for this scheme: it is integrated by taylor".into()),
+    }
+}
+
+/// Prints the time of a step of chains by their number of states N, and the exponent p of N^p that fits
+/// best.
+#[cfg(feature = "compiled")]
+fn chains() -> Result<(), Box<dyn Error>> {
+    const T_END: f64 = 1000.0;
+    const RUNS: usize = 9;
+    println!("tolerance  states  steps  ns a step  ns a step and state");
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let mut points = Vec::new();
+        for (states, chain) in large::Large::chains() {
+            let runs = (0..RUNS).map(|_| chain.integrate(tolerance, T_END));
+            let runs = runs.collect::<Result<Vec<_>, _>>()?;
+            let a_step = |run: &large::Finish| 1e9 * run.time.as_secs_f64() / run.steps as f64;
+            let nanoseconds = runs.iter().map(a_step).fold(f64::INFINITY, f64::min);
+            let (size, steps) = (states as f64, runs[0].steps);
+            let a_state = nanoseconds / size;
+            println!("{tolerance:9e} {states:7} {steps:6} {nanoseconds:10.0} {a_state:20.1}");
+            points.push((size.ln(), nanoseconds.ln()));
+        }
+        let count = points.len() as f64;
+        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / count;
+        let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+        let (xy, xx) = (
+            mean(|point| point.0 * point.1),
+            mean(|point| point.0 * point.0),
+        );
+        println!("{tolerance:9e} exponent {:.2}", (xy - x * y) / (xx - x * x));
+    }
+    Ok(())
 }
 
 fn schemes() -> Value {

@@ -1,0 +1,283 @@
+//! Larger systems, for comparisons by Taylor's method alone: chains of 4 to 64 masses, planets around a
+//! star, the outer planets.
+
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use dmm_problems::method::Run;
+use dmm_problems::problem::{Description, Problem};
+use dmm_runtime::{End, Error, Integrator, Model, System, Taylor, Vector, pws};
+
+/// The end of a run.
+pub(crate) struct Finish {
+    /// x(t_end)
+    pub(crate) x: Vec<f64>,
+    /// How many steps it took.
+    pub(crate) steps: u64,
+    /// How long it took.
+    pub(crate) time: Duration,
+}
+
+/// A problem.
+pub(crate) struct Large {
+    description: Description,
+    declaration: fn() -> String,
+    run: fn(tolerance: f64, t_end: f64) -> Result<Finish, Error>,
+}
+
+impl Large {
+    /// The problem of this name.
+    pub(crate) fn find(name: &str) -> Option<&'static Self> {
+        LARGE.iter().find(|large| large.description.name == name)
+    }
+
+    /// The chains, by their number of states.
+    pub(crate) fn chains() -> impl Iterator<Item = (usize, &'static Self)> {
+        let chains = LARGE.iter();
+        let chains = chains.filter(|large| large.description.name.starts_with("chain"));
+        chains.map(|chain| (chain.description.initial.len(), chain))
+    }
+
+    /// The problem, compiled at run time.
+    pub(crate) fn problem(&self) -> Result<Problem, String> {
+        let model = Model::compile(&(self.declaration)()).map_err(|error| error.to_string())?;
+        let system = model.into_any::<Run>().map_err(|error| error.to_string())?;
+        Ok(Problem::new(self.description, system))
+    }
+
+    /// A run by Taylor's method.
+    pub(crate) fn integrate(&self, tolerance: f64, t_end: f64) -> Result<Finish, Error> {
+        (self.run)(tolerance, t_end)
+    }
+}
+
+/// A run from the start.
+fn run<Sys: System<N> + Default, const N: usize>(
+    initial: [f64; N],
+    tolerance: f64,
+    t_end: f64,
+) -> Result<Finish, Error> {
+    let start = ThreadTime::now();
+    let system = Sys::default();
+    let end: End<_, N> = Integrator::new(&system, Taylor::tolerance(tolerance))
+        .initial(0.0, Vector::from(initial))
+        .observe_until(t_end, &mut ())?;
+    Ok(Finish {
+        time: start.elapsed(),
+        x: end.point.x.iter().copied().collect(),
+        steps: end.statistics.steps,
+    })
+}
+
+macro_rules! large {
+    ($($name:literal $title:literal $source:ident $system:path, $states:literal $initial:expr;)*) => {
+        const LARGE: &[Large] = &[$(Large {
+            description: Description {
+                name: $name,
+                title: $title,
+                source: $source,
+                initial: {
+                    const INITIAL: [f64; $states] = $initial;
+                    &INITIAL
+                },
+                t_end: 100.0,
+                step_size: 1e-2,
+                longest: None,
+                reference: None,
+            },
+            declaration: || <$system>::default().declaration().to_owned(),
+            run: |tolerance, t_end| run::<$system, $states>($initial, tolerance, t_end),
+        }),*];
+    };
+}
+
+const CHAIN: &str = "Fermi, Pasta, Ulam & Tsingou, LA-1940 (1955)";
+const PLANETS: &str = "Newton (1687)";
+const OUTER: &str = "Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), table I.2.2";
+
+large! {
+    "chain_4" "chain of 4 masses" CHAIN chain_4::Chain, 8 parabola(1.0);
+    "chain_8" "chain of 8 masses" CHAIN chain_8::Chain, 16 parabola(1.0);
+    "chain_16" "chain of 16 masses" CHAIN chain_16::Chain, 32 parabola(1.0);
+    "chain_32" "chain of 32 masses" CHAIN chain_32::Chain, 64 parabola(1.0);
+    "chain_64" "chain of 64 masses" CHAIN chain_64::Chain, 128 parabola(1.0);
+    "planets_5" "a star with 4 planets in a plane" PLANETS planets_5::Planets, 20 circles::<5, 20>();
+    "planets_8" "a star with 7 planets in a plane" PLANETS planets_8::Planets, 32 circles::<8, 32>();
+    "outer_planets" "the outer planets" OUTER OuterPlanets, 36 OUTER_PLANETS;
+}
+
+macro_rules! chain {
+    ($module:ident $masses:literal) => {
+        mod $module {
+            use dmm_runtime::pws;
+            pws! {
+                /// Springs with a quadratic and a cubic part of the force, between two walls.
+                pub(super) system Chain {
+                    const n = $masses;
+                    /// Displacements.
+                    state q[n];
+                    /// Momenta.
+                    state p[n];
+                    param alpha = 0.25, beta = 0.5;
+                    fn V(r) = r^2 / 2 + alpha * r^3 / 3 + beta * r^4 / 4;
+                    hamiltonian energy = sum(i in 0..n, p[i]^2 / 2)
+                        + V(q[0]) + sum(i in 1..n, V(q[i] - q[i - 1])) + V(-q[n - 1]) in (q, p);
+                }
+            }
+        }
+    };
+}
+
+chain!(chain_4 4);
+chain!(chain_8 8);
+chain!(chain_16 16);
+chain!(chain_32 32);
+chain!(chain_64 64);
+
+macro_rules! planets {
+    ($module:ident $bodies:literal $masses:tt) => {
+        mod $module {
+            use dmm_runtime::pws;
+            pws! {
+                /// Bodies in a plane; the first is a thousand times as heavy as the others.
+                pub(super) system Planets {
+                    const n = $bodies;
+                    /// Positions.
+                    state x[n], y[n];
+                    /// Velocities.
+                    state u[n], v[n];
+                    /// Masses relative to the first.
+                    param m[n] = $masses;
+                    fn distance(i, j) = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2);
+                    for i in 0..n {
+                        der(x[i]) = u[i];
+                        der(y[i]) = v[i];
+                        der(u[i]) = sum(k in 1..n, m[(i + k) % n] * (x[(i + k) % n] - x[i])
+                            / distance(i, (i + k) % n)^3);
+                        der(v[i]) = sum(k in 1..n, m[(i + k) % n] * (y[(i + k) % n] - y[i])
+                            / distance(i, (i + k) % n)^3);
+                    }
+                    conserved energy = sum(i in 0..n, m[i] * (u[i]^2 + v[i]^2) / 2)
+                        - sum(i in 0..n, sum(j in 0..i, m[i] * m[j] / distance(i, j)));
+                    conserved momentum_x = sum(i in 0..n, m[i] * u[i]);
+                    conserved momentum_y = sum(i in 0..n, m[i] * v[i]);
+                    conserved angular_momentum = sum(i in 0..n, m[i] * (x[i] * v[i] - y[i] * u[i]));
+                }
+            }
+        }
+    };
+}
+
+planets!(planets_5 5 [1, 1e-3, 1e-3, 1e-3, 1e-3]);
+planets!(planets_8 8 [1, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3]);
+
+pws! {
+    /// The sun with the inner planets, and the five outer ones; times in hundreds of days.
+    system OuterPlanets {
+        const n = 6;
+        /// Positions, in astronomical units.
+        state x[n], y[n], z[n];
+        /// Velocities.
+        state u[n], v[n], w[n];
+        /// The constant of gravitation.
+        param G = 2.95912208286;
+        /// Masses relative to the sun.
+        param m[n] = [
+            1.00000597682, 0.000954786104043, 0.000285583733151,
+            0.0000437273164546, 0.0000517759138449, 7.692307692307693e-9
+        ];
+        fn distance(i, j) = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2 + (z[i] - z[j])^2);
+        for i in 0..n {
+            der(x[i]) = u[i];
+            der(y[i]) = v[i];
+            der(z[i]) = w[i];
+            der(u[i]) = sum(k in 1..n, G * m[(i + k) % n] * (x[(i + k) % n] - x[i])
+                / distance(i, (i + k) % n)^3);
+            der(v[i]) = sum(k in 1..n, G * m[(i + k) % n] * (y[(i + k) % n] - y[i])
+                / distance(i, (i + k) % n)^3);
+            der(w[i]) = sum(k in 1..n, G * m[(i + k) % n] * (z[(i + k) % n] - z[i])
+                / distance(i, (i + k) % n)^3);
+        }
+        conserved energy = sum(i in 0..n, m[i] * (u[i]^2 + v[i]^2 + w[i]^2) / 2)
+            - sum(i in 0..n, sum(j in 0..i, G * m[i] * m[j] / distance(i, j)));
+        conserved momentum_x = sum(i in 0..n, m[i] * u[i]);
+        conserved momentum_y = sum(i in 0..n, m[i] * v[i]);
+        conserved momentum_z = sum(i in 0..n, m[i] * w[i]);
+    }
+}
+
+/// By component, the bodies as in the table; velocities per hundred days.
+const OUTER_PLANETS: [f64; 36] = [
+    0.0,
+    -3.5023653,
+    9.0755314,
+    8.3101420,
+    11.4707666,
+    -15.5387357,
+    0.0,
+    -3.8169847,
+    -3.0458353,
+    -16.2901086,
+    -25.7294829,
+    -25.2225594,
+    0.0,
+    -1.5507963,
+    -1.6483708,
+    -7.2521278,
+    -10.8169456,
+    -3.1902382,
+    0.0,
+    0.565429,
+    0.168318,
+    0.354178,
+    0.288930,
+    0.276725,
+    0.0,
+    -0.412490,
+    0.483525,
+    0.137102,
+    0.114527,
+    -0.170702,
+    0.0,
+    -0.190589,
+    0.192462,
+    0.055029,
+    0.039677,
+    -0.136504,
+];
+
+/// At rest, the masses of a chain displaced as a parabola of `height`, a third higher at its end: no spring
+/// has its length at rest, where a power has no series that every integrator can compute.
+const fn parabola<const STATES: usize>(height: f64) -> [f64; STATES] {
+    let n = STATES / 2;
+    let mut x = [0.0; STATES];
+    let mut i = 0;
+    while i < n {
+        let (numerator, denominator) = (4 * (i + 1) * (n - i), (n + 1) * (n + 1));
+        let higher = 1.0 + (i + 1) as f64 / (3 * (n + 1)) as f64;
+        x[i] = height * higher * numerator as f64 / denominator as f64;
+        i += 1;
+    }
+    x
+}
+
+/// Planets on circles around the star, of radii s² with s = 1, 1.25, 1.5, … and velocities 1/s, a quarter
+/// of a turn apart.
+const fn circles<const BODIES: usize, const STATES: usize>() -> [f64; STATES] {
+    let mut state = [0.0; STATES];
+    let mut i = 1;
+    while i < BODIES {
+        let s = 0.75 + 0.25 * i as f64;
+        let sign = if i % 4 < 2 { 1.0 } else { -1.0 };
+        let (radius, speed) = (sign * s * s, sign / s);
+        if i.is_multiple_of(2) {
+            state[BODIES + i] = radius;
+            state[2 * BODIES + i] = -speed;
+        } else {
+            state[i] = radius;
+            state[3 * BODIES + i] = speed;
+        }
+        i += 1;
+    }
+    state
+}
