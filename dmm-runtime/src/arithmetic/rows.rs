@@ -82,3 +82,24 @@ fn load<const W: usize>(row: &[f64; W], at: usize) -> f64x4 {
     vector.copy_from_slice(&row[at..at + COLUMNS]);
     f64x4::from(vector)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_give_what_one_column_after_the_other_gives() {
+        const W: usize = 28;
+        for rows in 0..8 {
+            let numbers = |of: usize| (0..rows * W).map(move |i| ((of + i) as f64).sin());
+            let [a, b]: [Vec<f64>; 2] = [1, 1000].map(|of| numbers(of).collect());
+            let sums: [f64; W] = products(&a, &b);
+            assert_eq!(sums, products_by_vectors::<W>(&a, &b));
+            for (column, sum) in sums.into_iter().enumerate() {
+                let term = |j: usize| a[j * W + column] * b[(rows - 1 - j) * W + column];
+                let plain: f64 = (0..rows).map(term).sum();
+                assert!((sum - plain).abs() < 1e-14, "{sum} {plain}");
+            }
+        }
+    }
+}

@@ -62,3 +62,38 @@ fn power(lowered: &Lowered, id: Id) -> (Id, Rational) {
         _ => (id, Rational::one()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Name;
+
+    /// y and x, the root of y/(x √x) and that of y/√x.
+    fn quotients() -> (Lowered, [Id; 2], [Id; 2]) {
+        let mut lowered = Lowered::new(Vec::new());
+        let [x, y] = ["x", "y"].map(|name| lowered.insert(Math::Variable(Name::new(name))));
+        let root = lowered.insert(Math::Call(Function::Sqrt, x));
+        let power = lowered.insert(Math::Mul([x, root]));
+        let roots = [power, root].map(|divisor| lowered.insert(Math::Div([y, divisor])));
+        (lowered, [x, y], roots)
+    }
+
+    #[test]
+    fn a_quotient_by_a_power_with_a_root_is_a_product() {
+        let (mut lowered, [x, y], roots) = quotients();
+        let [product, quotient] = with_powers(&mut lowered, &roots)[..] else {
+            panic!("two roots")
+        };
+        let Math::Mul([a, power]) = lowered.dag()[product] else {
+            panic!("no product")
+        };
+        let Math::Pow([base, exponent]) = lowered.dag()[power] else {
+            panic!("no power")
+        };
+        assert_eq!([a, base], [y, x]);
+        let exponent = lowered.dag().as_constant(exponent);
+        assert_eq!(exponent, Some(&Rational::new((-3).into(), 2.into())));
+        // a root alone has a recurrence as short
+        assert_eq!(quotient, roots[1]);
+    }
+}
