@@ -62,13 +62,15 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let little = self.bound(little(N), weights);
         let factors = Factors::new(weights, (&multiplier, dynamics.quantities()), &little);
-        if factors.steep.not().and(used).any() {
-            return self.reached_by_steps(dynamics, time, state, (weights, used));
+        let flat = factors.steep.not().and(used);
+        if !factors.steep.and(used).any() {
+            return self.reached_by_steps(dynamics, time, state, (weights, flat));
         }
         let off = remainder(dynamics, time, &state);
         let first = factors.displacement(&self.rounded_residual(&psi, &multiplier, &off));
-        let mut reached = select(used, &displaced(state, &first), &state);
-        let mut left = weights.are_left_by(&first).and(used);
+        let steep = factors.steep.and(used);
+        let mut reached = select(steep, &displaced(state, &first), &state);
+        let mut left = weights.are_left_by(&first).and(steep);
         for _ in 0..MOST_ALIKE {
             if !left.any() {
                 break;
@@ -80,8 +82,9 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             // the same slopes again leave the product with the first displacement
             left = left.and(weights.are_left_by_both(&first, &next));
         }
-        if left.any() {
-            reached = self.reached_by_steps(dynamics, time, reached, (weights, left));
+        let rest = flat.or(left);
+        if rest.any() {
+            reached = self.reached_by_steps(dynamics, time, reached, (weights, rest));
         }
         reached
     }
