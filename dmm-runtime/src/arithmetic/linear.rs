@@ -6,6 +6,7 @@
 //! entries a row, and its elimination costs O(N²) rather than O(N³) operations.
 
 use crate::arithmetic::Scalar;
+use crate::arithmetic::masked::Masked;
 use crate::arithmetic::{Matrix, Vector};
 
 /// Up to here the inverse has a closed form.
@@ -121,10 +122,11 @@ fn subtract<const N: usize>(column: &mut [f64; N], factors: &[f64; N], k: usize)
 }
 
 /// Whether every entry is finite.
-#[inline]
-pub(crate) fn is_finite<const N: usize>(x: &Vector<f64, N>) -> bool {
+#[inline(always)]
+pub(crate) fn is_finite<S: Masked, const N: usize>(x: &Vector<S, N>) -> S::Mask {
     // 0·u is 0 for a finite u and NaN otherwise: one comparison for the whole vector
-    together::<f64, N>(0.0, |sum, i| sum + 0.0 * x[i], |a, b| a + b) == 0.0
+    let zero = S::from_f64(0.0);
+    together::<S, N>(zero, |sum, i| sum + zero * x[i], |a, b| a + b).equals(zero)
 }
 
 #[cfg(test)]

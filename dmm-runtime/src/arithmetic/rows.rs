@@ -2,20 +2,23 @@
 
 use wide::f64x4;
 
-use super::Scalar;
-
 /// Columns at a time, at least.
-pub(crate) const COLUMNS: usize = 4;
+const COLUMNS: usize = 4;
 
-/// Σ aⱼ bₙ₋₁₋ⱼ over n rows of W numbers, by column.
+/// Σ aⱼ bₙ₋₁₋ⱼ over n rows of W numbers, by column, where `fused` is u·v + w.
 #[inline(always)]
-pub(crate) fn products<S: Scalar, const W: usize>(a: &[S], b: &[S]) -> [S; W] {
-    let mut sums = [S::from_f64(0.0); W];
+pub(crate) fn products<S: Copy, const W: usize>(
+    zero: S,
+    fused: impl Fn(S, S, S) -> S,
+    a: &[S],
+    b: &[S],
+) -> [S; W] {
+    let mut sums = [zero; W];
     for at in (0..W).step_by(COLUMNS) {
-        let mut some = [S::from_f64(0.0); COLUMNS];
+        let mut some = [zero; COLUMNS];
         for_rows::<S, W>(a, b, |a, b| {
             for (column, sum) in some.iter_mut().enumerate() {
-                *sum = a[at + column].fused(b[at + column], *sum);
+                *sum = fused(a[at + column], b[at + column], *sum);
             }
         });
         sums[at..at + COLUMNS].copy_from_slice(&some);
@@ -86,6 +89,15 @@ fn load<const W: usize>(row: &[f64; W], at: usize) -> f64x4 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arithmetic::error_free::HAS_FUSED;
+
+    fn fused(u: f64, v: f64, w: f64) -> f64 {
+        if HAS_FUSED {
+            u.mul_add(v, w)
+        } else {
+            u * v + w
+        }
+    }
 
     #[test]
     fn vectors_give_what_one_column_after_the_other_gives() {
@@ -93,7 +105,7 @@ mod tests {
         for rows in 0..8 {
             let numbers = |of: usize| (0..rows * W).map(move |i| ((of + i) as f64).sin());
             let [a, b]: [Vec<f64>; 2] = [1, 1000].map(|of| numbers(of).collect());
-            let sums: [f64; W] = products(&a, &b);
+            let sums: [f64; W] = products(0.0, fused, &a, &b);
             assert_eq!(sums, products_by_vectors::<W>(&a, &b));
             for (column, sum) in sums.into_iter().enumerate() {
                 let term = |j: usize| a[j * W + column] * b[(rows - 1 - j) * W + column];

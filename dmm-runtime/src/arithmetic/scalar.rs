@@ -52,7 +52,7 @@ pub trait Scalar:
     /// Σ aⱼ bₙ₋₁₋ⱼ over n rows of W numbers, by column; W is a multiple of four.
     #[inline(always)]
     fn products_by_column<const W: usize>(a: &[Self], b: &[Self]) -> [Self; W] {
-        rows::products(a, b)
+        rows::products(Self::from_f64(0.0), Self::fused, a, b)
     }
     /// u, where a chain of operations is so long that it is better interrupted. (Of several
     /// scalars at once the compiler finds only ten operations or so that belong together.)

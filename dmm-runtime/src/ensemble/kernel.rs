@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use super::register::{Register, Wide, WideMask};
-use crate::arithmetic::linear::dot;
+use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, DynamicsVisitor, Guards, Vector};
@@ -146,15 +146,6 @@ impl<const N: usize> Register<N> {
     }
 }
 
-/// Where a state has finite coordinates.
-#[inline(always)]
-fn is_finite<const N: usize>(state: &State<N, Wide>) -> WideMask {
-    let zero = Wide::from_f64(0.0);
-    // 0·u is 0 for a finite u and NaN otherwise
-    let sum = (0..N).fold(zero, |sum, i| sum + zero * state.x[i]);
-    sum.equals(zero)
-}
-
 impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     /// The interfaces that bound the region, with its sides.
     #[inline(always)]
@@ -279,7 +270,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let stands = time.value.equals(start.value);
         let stands = stands.and(time.remainder.equals(start.remainder));
         let moves = tau.above(n(0.0)).and(stands.not());
-        let mut hard = ahead.hard.or(is_finite(&state).not()).or(moves.not());
+        let mut hard = ahead.hard.or(is_finite(&state.x).not()).or(moves.not());
         hard = hard.or(out_of_range);
         if let Some(barred) = entry.barred {
             hard = hard.or(barred);

@@ -10,7 +10,7 @@
 
 use super::reached::select;
 use super::{Level, Weights, switching_in_pairs};
-use crate::arithmetic::linear::dot;
+use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Guards, Vector};
@@ -239,7 +239,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             self.read(dynamics, guard);
             self.rate = moves.select(self.rate, rate);
         }
-        let finite = (0..N).fold(n(0.0), |sum, i| sum + n(0.0) * self.state.x[i]);
-        (self, used.and(moves.not()).and(finite.equals(n(0.0))))
+        let located = used.and(moves.not()).and(is_finite(&self.state.x));
+        (self, located)
     }
 }

@@ -5,7 +5,7 @@ use super::weights::COARSE;
 use super::{Level, Weights, little, remainder, row};
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
-use crate::arithmetic::{State, Time};
+use crate::arithmetic::{Matrix, State, Time};
 use crate::contract::{Dynamics, Vector};
 
 /// Corrections with the same slopes: each leaves the product of the first displacement and its own.
@@ -30,23 +30,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         if M == 1 {
             return self.reached_at_once(dynamics, time, state, (&weights, used));
         }
-        // what is not inlined does not compute in lanes
-        if S::LANES == 1 {
-            self.reached_by_factors_apart(dynamics, time, state, (&weights, used))
-        } else {
-            self.reached_by_factors(dynamics, time, state, (&weights, used))
-        }
-    }
-
-    #[inline(never)]
-    fn reached_by_factors_apart<F: Dynamics<S, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time<S>,
-        state: State<N, S>,
-        how: (&Weights<N, S>, S::Mask),
-    ) -> State<N, S> {
-        self.reached_by_factors(dynamics, time, state, how)
+        apart::<S, _>(|| self.reached_by_factors(dynamics, time, state, (&weights, used)))
     }
 
     /// The same for several quantities, where each adds to the slope of the others. What a large
@@ -69,19 +53,16 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         let off = remainder(dynamics, time, &state);
         let first = factors.displacement(&self.rounded_residual(&psi, &multiplier, &off));
         let steep = factors.steep.and(used);
-        let mut reached = select(steep, &displaced(state, &first), &state);
-        let mut left = weights.are_left_by(&first).and(steep);
-        for _ in 0..MOST_ALIKE {
-            if !left.any() {
-                break;
-            }
-            let psi = dynamics.conserved(time.value, &reached.x);
-            let off = remainder(dynamics, time, &reached);
-            let next = factors.displacement(&self.rounded_residual(&psi, &multiplier, &off));
-            reached = select(left, &displaced(reached, &next), &reached);
-            // the same slopes again leave the product with the first displacement
-            left = left.and(weights.are_left_by_both(&first, &next));
-        }
+        let reached = select(steep, &displaced(state, &first), &state);
+        let left = weights.are_left_by(&first).and(steep);
+        let at = (time, reached, left);
+        let (mut reached, left) =
+            self.reached_alike(dynamics, &multiplier, at, |state, residual| {
+                let next = factors.displacement(residual);
+                // the same slopes again leave the product with the first displacement
+                let left = weights.are_left_by_both(&first, &next);
+                (displaced(state, &next), left)
+            });
         let rest = flat.or(left);
         if rest.any() {
             reached = self.reached_by_steps(dynamics, time, reached, (weights, rest));
@@ -111,26 +92,47 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         let gain: Vector<S, N> = vector(|i| weighted[i] * inverse);
         let off = remainder(dynamics, time, &state);
         let first = self.rounded_residual(&psi, &multiplier, &off)[0];
-        let mut reached = less(state, &gain, first);
+        let reached = less(state, &gain, first);
         let coarse = square * (weights.unit * S::from_f64(COARSE * COARSE));
-        let mut left = (first * first).above(coarse).and(steep).and(used);
-        for _ in 0..MOST_ALIKE {
-            if !left.any() {
-                break;
-            }
-            let psi = dynamics.conserved(time.value, &reached.x);
-            let off = remainder(dynamics, time, &reached);
-            let next = self.rounded_residual(&psi, &multiplier, &off)[0];
-            reached = select(left, &less(reached, &gain, next), &reached);
-            // the same slope again leaves the product with the first residual
-            left = left.and((first * next).abs().above(coarse));
-        }
+        let left = (first * first).above(coarse).and(steep).and(used);
+        let at = (time, reached, left);
+        let (mut reached, left) =
+            self.reached_alike(dynamics, &multiplier, at, |state, residual| {
+                let next = residual[0];
+                // the same slope again leaves the product with the first residual
+                let left = (first * next).abs().above(coarse);
+                (less(state, &gain, next), left)
+            });
         let rest = flat.or(left);
         if rest.any() {
             reached = select(flat, &state, &reached);
             reached = self.reached_by_steps(dynamics, time, reached, (weights, rest));
         }
         reached
+    }
+
+    /// Corrections with the slopes of the first, in the lanes that are left, and the lanes that still
+    /// are: `corrected` gives the state without a residual, and where the rest is no rounding error.
+    #[inline(always)]
+    fn reached_alike<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        multiplier: &Matrix<S, M, N>,
+        (time, mut reached, mut left): (Time<S>, State<N, S>, S::Mask),
+        corrected: impl Fn(State<N, S>, &Vector<S, M>) -> (State<N, S>, S::Mask),
+    ) -> (State<N, S>, S::Mask) {
+        for _ in 0..MOST_ALIKE {
+            if !left.any() {
+                break;
+            }
+            let psi = dynamics.conserved(time.value, &reached.x);
+            let off = remainder(dynamics, time, &reached);
+            let (next, is_left) =
+                corrected(reached, &self.rounded_residual(&psi, multiplier, &off));
+            reached = select(left, &next, &reached);
+            left = left.and(is_left);
+        }
+        (reached, left)
     }
 
     /// The same by one correction after the other, while the square of the last one is no rounding
@@ -143,23 +145,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         state: State<N, S>,
         how: (&Weights<N, S>, S::Mask),
     ) -> State<N, S> {
-        // what is not inlined does not compute in lanes
-        if S::LANES == 1 {
-            self.step_by_step_apart(dynamics, time, state, how)
-        } else {
-            self.step_by_step(dynamics, time, state, how)
-        }
-    }
-
-    #[inline(never)]
-    fn step_by_step_apart<F: Dynamics<S, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time<S>,
-        state: State<N, S>,
-        how: (&Weights<N, S>, S::Mask),
-    ) -> State<N, S> {
-        self.step_by_step(dynamics, time, state, how)
+        apart::<S, _>(|| self.step_by_step(dynamics, time, state, how))
     }
 
     #[inline(always)]
@@ -181,6 +167,21 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             }
         }
         state
+    }
+}
+
+/// What `work` gives, for one lane by a function of its own; what is not inlined does not compute in
+/// lanes.
+#[inline(always)]
+fn apart<S: Masked, T>(work: impl FnOnce() -> T) -> T {
+    #[inline(never)]
+    fn outlined<T>(work: impl FnOnce() -> T) -> T {
+        work()
+    }
+    if S::LANES == 1 {
+        outlined(work)
+    } else {
+        work()
     }
 }
 

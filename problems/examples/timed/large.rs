@@ -6,6 +6,7 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use dmm_problems::method::Run;
 use dmm_problems::problem::{Description, Problem};
+use dmm_problems::systems::fput_chain::parabola;
 use dmm_runtime::{End, Error, Integrator, Model, System, Taylor, Vector, pws};
 
 /// The end of a run.
@@ -32,7 +33,7 @@ impl Large {
     }
 
     /// The chains, by their number of states.
-    pub(crate) fn chains() -> impl Iterator<Item = (usize, &'static Self)> {
+    fn chains() -> impl Iterator<Item = (usize, &'static Self)> {
         let chains = LARGE.iter();
         let chains = chains.filter(|large| large.description.name.starts_with("chain"));
         chains.map(|chain| (chain.description.initial.len(), chain))
@@ -49,6 +50,36 @@ impl Large {
     pub(crate) fn integrate(&self, tolerance: f64, t_end: f64) -> Result<Finish, Error> {
         (self.run)(tolerance, t_end)
     }
+}
+
+/// Prints the time of a step of chains by their number of states N, and the exponent p of N^p that fits
+/// best.
+pub(crate) fn print_chains() -> Result<(), Box<dyn std::error::Error>> {
+    const T_END: f64 = 1000.0;
+    const RUNS: usize = 9;
+    println!("tolerance  states  steps  ns a step  ns a step and state");
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let mut points = Vec::new();
+        for (states, chain) in Large::chains() {
+            let runs = (0..RUNS).map(|_| chain.integrate(tolerance, T_END));
+            let runs = runs.collect::<Result<Vec<_>, _>>()?;
+            let a_step = |run: &Finish| 1e9 * run.time.as_secs_f64() / run.steps as f64;
+            let nanoseconds = runs.iter().map(a_step).fold(f64::INFINITY, f64::min);
+            let (size, steps) = (states as f64, runs[0].steps);
+            let a_state = nanoseconds / size;
+            println!("{tolerance:9e} {states:7} {steps:6} {nanoseconds:10.0} {a_state:20.1}");
+            points.push((size.ln(), nanoseconds.ln()));
+        }
+        let count = points.len() as f64;
+        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / count;
+        let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+        let (xy, xx) = (
+            mean(|point| point.0 * point.1),
+            mean(|point| point.0 * point.0),
+        );
+        println!("{tolerance:9e} exponent {:.2}", (xy - x * y) / (xx - x * x));
+    }
+    Ok(())
 }
 
 /// A run from the start.
@@ -96,11 +127,11 @@ const PLANETS: &str = "Newton (1687)";
 const OUTER: &str = "Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), table I.2.2";
 
 large! {
-    "chain_4" "chain of 4 masses" CHAIN chain_4::Chain, 8 parabola(1.0);
-    "chain_8" "chain of 8 masses" CHAIN chain_8::Chain, 16 parabola(1.0);
-    "chain_16" "chain of 16 masses" CHAIN chain_16::Chain, 32 parabola(1.0);
-    "chain_32" "chain of 32 masses" CHAIN chain_32::Chain, 64 parabola(1.0);
-    "chain_64" "chain of 64 masses" CHAIN chain_64::Chain, 128 parabola(1.0);
+    "chain_4" "chain of 4 masses" CHAIN chain_4::Chain, 8 slanted_parabola();
+    "chain_8" "chain of 8 masses" CHAIN chain_8::Chain, 16 slanted_parabola();
+    "chain_16" "chain of 16 masses" CHAIN chain_16::Chain, 32 slanted_parabola();
+    "chain_32" "chain of 32 masses" CHAIN chain_32::Chain, 64 slanted_parabola();
+    "chain_64" "chain of 64 masses" CHAIN chain_64::Chain, 128 slanted_parabola();
     "planets_5" "a star with 4 planets in a plane" PLANETS planets_5::Planets, 20 circles::<5, 20>();
     "planets_8" "a star with 7 planets in a plane" PLANETS planets_8::Planets, 32 circles::<8, 32>();
     "outer_planets" "the outer planets" OUTER OuterPlanets, 36 OUTER_PLANETS;
@@ -246,16 +277,13 @@ const OUTER_PLANETS: [f64; 36] = [
     -0.136504,
 ];
 
-/// At rest, the masses of a chain displaced as a parabola of `height`, a third higher at its end: no spring
-/// has its length at rest, where a power has no series that every integrator can compute.
-const fn parabola<const STATES: usize>(height: f64) -> [f64; STATES] {
-    let n = STATES / 2;
-    let mut x = [0.0; STATES];
+/// At rest, the masses of a chain displaced as a parabola, a third higher at its end: no spring has its
+/// length at rest, where a power has no series that every integrator can compute.
+const fn slanted_parabola<const STATES: usize>() -> [f64; STATES] {
+    let mut x = parabola(1.0);
     let mut i = 0;
-    while i < n {
-        let (numerator, denominator) = (4 * (i + 1) * (n - i), (n + 1) * (n + 1));
-        let higher = 1.0 + (i + 1) as f64 / (3 * (n + 1)) as f64;
-        x[i] = height * higher * numerator as f64 / denominator as f64;
+    while i < STATES / 2 {
+        x[i] *= 1.0 + (i + 1) as f64 / (3 * (STATES / 2 + 1)) as f64;
         i += 1;
     }
     x

@@ -39,7 +39,7 @@ use serde_json::{Value, json};
 fn main() -> Result<(), Box<dyn Error>> {
     #[cfg(feature = "compiled")]
     if std::env::args().nth(1).as_deref() == Some("chains") {
-        return chains();
+        return large::print_chains();
     }
     let mut out = std::io::stdout().lock();
     for line in std::io::stdin().lock().lines() {
@@ -99,37 +99,6 @@ fn of_large(large: &large::Large, words: &[&str]) -> Result<Value, Box<dyn Error
         }
         _ => Err("no problem for this scheme: it is integrated by taylor".into()),
     }
-}
-
-/// Prints the time of a step of chains by their number of states N, and the exponent p of N^p that fits
-/// best.
-#[cfg(feature = "compiled")]
-fn chains() -> Result<(), Box<dyn Error>> {
-    const T_END: f64 = 1000.0;
-    const RUNS: usize = 9;
-    println!("tolerance  states  steps  ns a step  ns a step and state");
-    for tolerance in [1e-4, 1e-8, 1e-12] {
-        let mut points = Vec::new();
-        for (states, chain) in large::Large::chains() {
-            let runs = (0..RUNS).map(|_| chain.integrate(tolerance, T_END));
-            let runs = runs.collect::<Result<Vec<_>, _>>()?;
-            let a_step = |run: &large::Finish| 1e9 * run.time.as_secs_f64() / run.steps as f64;
-            let nanoseconds = runs.iter().map(a_step).fold(f64::INFINITY, f64::min);
-            let (size, steps) = (states as f64, runs[0].steps);
-            let a_state = nanoseconds / size;
-            println!("{tolerance:9e} {states:7} {steps:6} {nanoseconds:10.0} {a_state:20.1}");
-            points.push((size.ln(), nanoseconds.ln()));
-        }
-        let count = points.len() as f64;
-        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / count;
-        let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-        let (xy, xx) = (
-            mean(|point| point.0 * point.1),
-            mean(|point| point.0 * point.0),
-        );
-        println!("{tolerance:9e} exponent {:.2}", (xy - x * y) / (xx - x * x));
-    }
-    Ok(())
 }
 
 fn schemes() -> Value {

@@ -38,7 +38,7 @@ pws! {
 }
 
 /// At rest, the masses of a chain displaced as a parabola of `height`.
-pub(super) const fn parabola<const STATES: usize>(height: f64) -> [f64; STATES] {
+pub const fn parabola<const STATES: usize>(height: f64) -> [f64; STATES] {
     let n = STATES / 2;
     let mut x = [0.0; STATES];
     let mut i = 0;

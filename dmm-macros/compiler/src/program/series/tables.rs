@@ -20,6 +20,8 @@ pub struct Tables {
     pub half: Vec<Place>,
     /// The numbers of the arrays of slots that have one.
     arrays: BTreeMap<Place, usize>,
+    /// The first lanes of the other slots.
+    lanes: BTreeMap<Place, Lane>,
     /// The first array behind these.
     first: usize,
 }
@@ -73,6 +75,14 @@ impl Tables {
         let arrays = arrays.filter(|slot| whole.contains(slot) || !in_lanes.contains(slot));
         tables.arrays = arrays.zip(first..).collect();
         tables.first = first + tables.arrays.len();
+        for (column, table) in tables.columns().into_iter().zip(tables.ranges()) {
+            for (number, place) in column.into_iter().enumerate() {
+                if matches!(place, Place::Slot(_)) && !tables.arrays.contains_key(&place) {
+                    let table = table.clone();
+                    tables.lanes.entry(place).or_insert(Lane { table, number });
+                }
+            }
+        }
         tables
     }
 
@@ -87,13 +97,9 @@ impl Tables {
         self.arrays.get(&slot).copied()
     }
 
-    /// The first lane of a series.
-    pub fn lane(&self, place: Place) -> Option<Lane> {
-        let tables = self.columns().into_iter().zip(self.ranges());
-        tables.into_iter().find_map(|(column, table)| {
-            let number = column.iter().position(|&other| other == place)?;
-            Some(Lane { table, number })
-        })
+    /// The first lane of a slot that has no array.
+    pub fn lane(&self, slot: Place) -> Option<&Lane> {
+        self.lanes.get(&slot)
     }
 
     /// The arrays whose place each table takes.

@@ -59,9 +59,7 @@ pub(super) fn body(
     states: States,
     keep: impl Fn(usize, &TokenStream) -> TokenStream,
 ) -> TokenStream {
-    let mut names = Names::reserving([
-        "self", "k", "t", "at", "states", "series", "base", "sine", "cosine", "row",
-    ]);
+    let mut names = Names::reserving(["self", "k", "t", "at", "states", "series", "base", "row"]);
     let mut known = scope.store.known();
     let mut locals = TokenStream::new();
     for input in &series.inputs {

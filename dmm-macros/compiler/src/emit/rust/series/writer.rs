@@ -69,15 +69,14 @@ impl<'a, 'b> Writer<'a, 'b> {
 
     /// A coefficient below order k.
     pub(super) fn earlier(&self, place: Place, order: &TokenStream) -> TokenStream {
-        let is_state = matches!(place, Place::State(_));
         match self.tables.lane(place) {
-            Some(lane) if !is_state && self.tables.array(place).is_none() => {
+            Some(lane) => {
                 let [from, to, number] =
                     [lane.table.start, lane.table.end, lane.number].map(paths::count);
                 let lanes = paths::count(lane.table.len());
                 quote!(dmm::series::row::<_, _, #lanes>(&series[#from..#to], #order)[#number])
             }
-            _ => {
+            None => {
                 let array = self.array(place);
                 quote!(#array[#order])
             }
