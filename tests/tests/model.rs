@@ -2,7 +2,7 @@
 
 use dmm_problems::method::MethodName;
 use dmm_problems::problem::{Description, Problem, Run};
-use dmm_problems::registry::{SystemVisitor, visit_systems};
+use dmm_problems::registry::{self, SystemVisitor, visit_systems};
 use dmm_runtime::dynamic::{AnyObserver, Crossed, Finish, Parallelism, Start};
 use dmm_runtime::{Best, End, Error, Integrator, Method, Model, Symmetric, System, Taylor, Vector};
 use std::ops::ControlFlow;
@@ -261,4 +261,58 @@ fn ensembles_and_observers_have_the_states_of_the_system_alone() {
         });
         assert_eq!(arrivals, 20);
     }
+}
+
+/// The ends of runs whose parameters are up to a tenth larger, one by one or in lanes.
+fn ensemble(problem: &Problem, run: &Run, members: usize, lanes: bool) -> Vec<Option<Vec<f64>>> {
+    let parallelism = Parallelism {
+        threads: Some(1),
+        lanes,
+    };
+    let parameters = problem.parameters();
+    let mut starts = (0..members).map(|member| {
+        let larger = 1.0 + 0.1 * member as f64 / members as f64;
+        Start {
+            parameters: parameters.iter().map(|(_, value)| value * larger).collect(),
+            initial: run.initial.clone(),
+        }
+    });
+    let mut ends = Vec::new();
+    problem.integrate_all(run, parallelism, &mut starts, &mut |outcome| {
+        ends.push(outcome.arrival.map(|arrival| arrival.x));
+        ControlFlow::Continue(())
+    });
+    ends
+}
+
+#[test]
+fn members_of_an_ensemble_have_their_own_parameters_in_lanes_too() {
+    /// More than there are lanes.
+    const MEMBERS: usize = 11;
+    let problems = registry::all();
+    let problems = problems.iter().filter(|one| !one.parameters().is_empty());
+    let mut compared = 0;
+    for problem in problems {
+        let description = problem.description();
+        let t_end = description.t_end.min(LONGEST);
+        let run = run(problem, MethodName::Taylor, description.initial, t_end);
+        let [single, lanes] = [false, true].map(|lanes| ensemble(problem, &run, MEMBERS, lanes));
+        assert_eq!((single.len(), lanes.len()), (MEMBERS, MEMBERS));
+        for (a, b) in single.iter().zip(&lanes) {
+            let (Some(a), Some(b)) = (a, b) else {
+                panic!("{}: {a:?} {b:?}", description.name);
+            };
+            let size = a.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+            for (a, b) in a.iter().zip(b) {
+                assert!(
+                    (a - b).abs() <= 1e-9 * size,
+                    "{}: {a} {b}",
+                    description.name
+                );
+            }
+            compared += 1;
+        }
+        assert_ne!(single.first(), single.last(), "{}", description.name);
+    }
+    assert!(compared >= 10 * MEMBERS, "{compared}");
 }

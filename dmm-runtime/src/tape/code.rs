@@ -157,11 +157,11 @@ impl Stage {
     }
 }
 
-/// Registers over other scalars.
+/// Registers over other scalars, lane by lane.
 pub(super) fn converted<S: Scalar, Other: Scalar>(registers: &[S]) -> Vec<Other> {
     let registers = registers.iter();
     registers
-        .map(|value| Other::from_f64(value.to_f64()))
+        .map(|value| Other::by_lane(|lane| value.lane(lane)))
         .collect()
 }
 
