@@ -45,9 +45,9 @@ pub fn measure(
         records: 0,
         progress,
     };
-    let statistics = problem.integrate(run, &mut meter)?;
+    let finish = problem.integrate(run, &mut meter)?;
     Ok(Conservation {
-        statistics,
+        statistics: finish.statistics,
         ulps: meter.ulps,
         level_error: meter.exact.is_some().then_some(meter.level_error),
     })

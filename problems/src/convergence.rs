@@ -206,7 +206,6 @@ pub fn study(
         let mut collector = Collector {
             crossings: Vec::new(),
             states: Vec::new(),
-            records: 0,
             is_stopped: false,
             progress: &mut |t| progress(done + share * t / run.t_end),
         };
@@ -248,7 +247,6 @@ fn sample_time(truth: &Truth, transitions: usize, t_end: f64) -> f64 {
 struct Collector<'a> {
     crossings: Vec<f64>,
     states: Vec<Vec<f64>>,
-    records: u64,
     is_stopped: bool,
     progress: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
 }
@@ -258,13 +256,13 @@ const TOLD: u64 = 1 << 10;
 
 impl AnyObserver for Collector<'_> {
     fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
-        self.records += 1;
-        if !self.records.is_multiple_of(TOLD) {
-            return ControlFlow::Continue(());
-        }
         let flow = (self.progress)(record.t);
         self.is_stopped = flow.is_break();
         flow
+    }
+
+    fn record_every(&self) -> u64 {
+        TOLD
     }
 
     fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {

@@ -3,8 +3,8 @@
 
 use dmm_runtime::dynamic::{InitialValue, MethodChoice, MethodVisitor, OutputTimes};
 use dmm_runtime::{
-    Adaptive, Best, Composed, EmbeddedRungeKutta, ErrorEstimate, Locator, NewtonLocator,
-    RungeKutta, Symmetric, Taylor, Uniform,
+    Adaptive, Best, Composed, EmbeddedRungeKutta, ErrorEstimate, NewtonLocator, RungeKutta,
+    Symmetric, Taylor, Uniform,
 };
 
 use crate::perturbed::Perturbed;
@@ -149,7 +149,7 @@ macro_rules! methods {
                     ..
                 } = *self;
                 Some(match self.method {
-                    MethodName::Symmetric => visitor.visit(symmetric(self, NewtonLocator)),
+                    MethodName::Symmetric => visitor.visit(symmetric(self, Perturbed::NOT)),
                     MethodName::Taylor => visitor
                         .visit(Taylor::tolerance(tolerance).level_correction(level_correction)),
                     MethodName::Best => visitor
@@ -231,8 +231,8 @@ fn apply<Sch>(run: &Run, scheme: impl Fn(&Run) -> Sch) -> Sch {
     scheme(run)
 }
 
-/// The conservative scheme of order 2 of a run. Schemes with a locator of one type are compiled once.
-fn symmetric<Loc: Locator>(run: &Run, locator: Loc) -> Uniform<Symmetric, Loc> {
+/// The conservative scheme of order 2 of a run: with a locator of one type it is compiled once.
+fn symmetric(run: &Run, locator: Perturbed) -> Uniform<Symmetric, Perturbed> {
     Symmetric::step_size(run.step_size)
         .level_correction(run.level_correction)
         .locator(locator)

@@ -10,7 +10,7 @@ pub use dmm_runtime::dynamic::{
     AnyMode, AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes,
     Parallelism, Record, Start,
 };
-use dmm_runtime::{Error, Metadata, Model, Statistics};
+use dmm_runtime::{Error, Metadata, Model};
 
 use crate::method::MethodName;
 pub use crate::method::Run;
@@ -182,9 +182,8 @@ impl Problem {
     ///
     /// # Errors
     /// Whatever stops the integration.
-    pub fn integrate(&self, run: &Run, sink: &mut dyn AnyObserver) -> Result<Statistics, Error> {
-        let finish = self.system.integrate(run, &run.from(), sink)?;
-        Ok(finish.statistics)
+    pub fn integrate(&self, run: &Run, sink: &mut dyn AnyObserver) -> Result<Finish, Error> {
+        self.system.integrate(run, &run.from(), sink)
     }
 
     /// Makes a run that is not listened to, for its speed.

@@ -1,5 +1,6 @@
 //! All problems, and finding one by name.
 
+#[cfg(feature = "compiled")]
 use dmm_runtime::dynamic::Erased;
 use dmm_runtime::{Model, System};
 
@@ -9,10 +10,9 @@ use crate::systems::*;
 /// A problem that can be made.
 struct Entry {
     description: &'static Description,
-    /// Its system, compiled at run time from the declaration.
-    tape: fn() -> Box<AnySystem>,
-    /// Its system, compiled with the program.
-    compiled: Option<fn() -> Box<AnySystem>>,
+    /// Its system: of generated code with the feature `compiled`, for comparisons of it; else compiled
+    /// at run time from the declaration.
+    system: fn() -> Box<AnySystem>,
 }
 
 /// The system of a declaration, compiled at run time.
@@ -31,12 +31,14 @@ pub trait SystemVisitor {
 }
 
 macro_rules! entries {
-    ($($system:ident $states:literal $module:ident $compiled:expr;)*) => {
+    ($($system:ident $states:literal $module:ident;)*) => {
         /// Every problem, the piecewise-smooth ones first.
         const ENTRIES: &[Entry] = &[$(Entry {
             description: &$module::DESCRIPTION,
-            tape: || declared(&$system::default()),
-            compiled: $compiled,
+            #[cfg(feature = "compiled")]
+            system: || Erased::<$system, $states>::boxed($system::default()),
+            #[cfg(not(feature = "compiled"))]
+            system: || declared(&$system::default()),
         }),*];
 
         /// Hands every system to `visitor`.
@@ -46,56 +48,33 @@ macro_rules! entries {
     };
 }
 
-/// A system that the program has compiled.
-macro_rules! compiled {
-    ($system:ident $states:literal) => {
-        Some(|| Erased::<$system, $states>::boxed($system::default()))
-    };
-}
-
-/// A system that is compiled with the feature `compiled` alone, for comparisons of generated code.
-#[cfg(feature = "compiled")]
-macro_rules! seldom {
-    ($system:ident $states:literal) => {
-        compiled!($system $states)
-    };
-}
-#[cfg(not(feature = "compiled"))]
-macro_rules! seldom {
-    ($system:ident $states:literal) => {
-        None
-    };
-}
-
 entries! {
-    Harmonic 2 harmonic compiled!(Harmonic 2);
-    Elliptic 2 elliptic compiled!(Elliptic 2);
-    Pendulum 2 pendulum seldom!(Pendulum 2);
-    LotkaVolterra 2 lotka_volterra_periodic seldom!(LotkaVolterra 2);
-    Damped 2 damped seldom!(Damped 2);
-    Spiral 2 spiral seldom!(Spiral 2);
-    RigidBody 3 rigid_body seldom!(RigidBody 3);
-    KeplerRefraction 4 kepler_refraction seldom!(KeplerRefraction 4);
-    SaturatingInductor 2 saturating_inductor seldom!(SaturatingInductor 2);
-    FoodChain 3 food_chain seldom!(FoodChain 3);
-    FputChain 16 fput_chain seldom!(FputChain 16);
-    FputChain32 64 fput_chain_32 seldom!(FputChain32 64);
-    TodaChain 16 toda_chain seldom!(TodaChain 16);
-    TodaChain32 64 toda_chain_32 seldom!(TodaChain32 64);
-    Toda 6 toda seldom!(Toda 6);
-    RelativisticOscillator 2 relativistic_oscillator seldom!(RelativisticOscillator 2);
-    HenonHeiles 4 henon_heiles seldom!(HenonHeiles 4);
-    PoschlTeller 2 poschl_teller seldom!(PoschlTeller 2);
-    SaturatingSpring 2 saturating_spring seldom!(SaturatingSpring 2);
-    DoublePendulum 4 double_pendulum seldom!(DoublePendulum 4);
-    ThreeBody 12 three_body seldom!(ThreeBody 12);
+    Harmonic 2 harmonic;
+    Elliptic 2 elliptic;
+    Pendulum 2 pendulum;
+    LotkaVolterra 2 lotka_volterra_periodic;
+    Damped 2 damped;
+    Spiral 2 spiral;
+    RigidBody 3 rigid_body;
+    KeplerRefraction 4 kepler_refraction;
+    SaturatingInductor 2 saturating_inductor;
+    FoodChain 3 food_chain;
+    FputChain 16 fput_chain;
+    FputChain32 64 fput_chain_32;
+    TodaChain 16 toda_chain;
+    TodaChain32 64 toda_chain_32;
+    Toda 6 toda;
+    RelativisticOscillator 2 relativistic_oscillator;
+    HenonHeiles 4 henon_heiles;
+    PoschlTeller 2 poschl_teller;
+    SaturatingSpring 2 saturating_spring;
+    DoublePendulum 4 double_pendulum;
+    ThreeBody 12 three_body;
 }
 
 impl Entry {
-    /// The problem, of the system that was compiled with the program if there is one.
     fn problem(&self) -> Problem {
-        let system = self.compiled.unwrap_or(self.tape);
-        Problem::new(*self.description, system())
+        Problem::new(*self.description, (self.system)())
     }
 }
 

@@ -39,8 +39,8 @@ impl AnyObserver for Collector {
         self.states.push(x.to_vec());
     }
 
-    fn wants_records(&self) -> bool {
-        false
+    fn record_every(&self) -> u64 {
+        0
     }
 }
 

@@ -94,6 +94,7 @@ impl<Sys: System<N>, const N: usize> Erased<Sys, N> {
     fn finish(&self, end: &End<Sys::Region, N>) -> Finish {
         Finish {
             x: self.slice(&end.point.x).to_vec(),
+            remainder: self.slice(&end.remainder).to_vec(),
             statistics: end.statistics,
         }
     }
@@ -116,7 +117,8 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Observed<'_, Sys, N> {
             observer,
         } = self;
         let mut forwarding = Forwarding {
-            wants_records: observer.wants_records(),
+            every: observer.record_every(),
+            points: 0,
             observer,
             erased,
             output_times: &from.output_times,
@@ -154,7 +156,10 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Silent<'_, Sys, N> {
 /// Tells a [`AnyObserver`] what the runtime tells its observer.
 struct Forwarding<'a, Sys: System<N>, const N: usize> {
     observer: &'a mut dyn AnyObserver,
-    wants_records: bool,
+    /// One of so many points is recorded.
+    every: u64,
+    /// How many there were so far.
+    points: u64,
     erased: &'a Erased<Sys, N>,
     output_times: &'a OutputTimes,
     /// How many of them there were so far.
@@ -193,7 +198,9 @@ impl<Sys: System<N>, const N: usize> Forwarding<'_, Sys, N> {
 
 impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_, Sys, N> {
     fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
-        if self.wants_records {
+        self.points += 1;
+        let is_first = self.level.is_empty();
+        if self.every > 0 && (is_first || self.points.is_multiple_of(self.every)) {
             self.record(point, false)
         } else {
             ControlFlow::Continue(())
@@ -223,7 +230,7 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_,
     fn output(&mut self, point: &Point<Sys::Region, N>) {
         self.outputs += 1;
         self.observer.output(point.t, self.erased.slice(&point.x));
-        if self.wants_records {
+        if self.every > 0 {
             // who wants to stop here stops at the end of the step
             let _ = self.record(point, true);
         }

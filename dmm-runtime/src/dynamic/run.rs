@@ -117,8 +117,10 @@ impl Record<'_> {
 /// How a run ended.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Finish {
-    /// The state at the end time.
+    /// The state at the end time, or where the observer stopped the run.
     pub x: Vec<f64>,
+    /// What of the state a double cannot hold.
+    pub remainder: Vec<f64>,
     /// Counters of the run.
     pub statistics: Statistics,
 }
@@ -203,9 +205,10 @@ pub trait AnyObserver {
     /// The state at the next of [`InitialValue::output_times`], before it is recorded.
     fn output(&mut self, _t: f64, _x: &[f64]) {}
 
-    /// Whether [`AnyObserver::record`] is to be called.
-    fn wants_records(&self) -> bool {
-        true
+    /// [`AnyObserver::record`] is called at every so many points, at the first of each region and at
+    /// times of output; never, if it is 0.
+    fn record_every(&self) -> u64 {
+        1
     }
 }
 
@@ -214,7 +217,7 @@ pub trait AnyObserver {
 pub struct Unobserved;
 
 impl AnyObserver for Unobserved {
-    fn wants_records(&self) -> bool {
-        false
+    fn record_every(&self) -> u64 {
+        0
     }
 }

@@ -1,63 +1,19 @@
 //! Failures on purpose: of the implicit solve, of the locator, of formulas. Each has to end in
 //! its typed error, with everything that was integrated before it.
 
+use std::ops::ControlFlow;
+
 use dmm_runtime::{
-    Correction, Crossing, Dynamics, ErrorKind, Integrator, Interrupted, Located, Locator, Method,
-    OneStep, Statistics, Step, StepFailure, Symmetric, System, Taylor, Uniform, Vector, pws,
+    Correction, Crossing, Dynamics, Error, ErrorKind, Integrator, Located, Locator, Method,
+    OneStep, Statistics, Step, StepFailure, Symmetric, Uniform, Vector,
 };
 
 use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::systems::{blowup, logarithm, stuck, tangent};
+use crate::method::{MethodName, Run};
+use crate::problem::{AnyObserver, Record};
 use crate::systems::Elliptic;
 use dmm_picture::Panel;
-
-pws! {
-    /// ẋ = x², which is infinite at t = 1/x(0).
-    pub system Blowup {
-        state x;
-        der(x) = x^2;
-    }
-}
-
-pws! {
-    /// Falls at a steady rate to where ln x ends.
-    pub system Logarithm {
-        state x, y;
-        der(x) = -1;
-        der(y) = ln(x);
-    }
-}
-
-pws! {
-    /// Both fields point at the interface where y > 0.
-    pub system Stuck {
-        state x, y;
-        interface wall = x;
-        region right where wall > 0 {
-            der(x) = -1;
-            der(y) = 0;
-        }
-        region left where wall < 0 {
-            der(x) = y;
-            der(y) = 0;
-        }
-    }
-}
-
-pws! {
-    /// The field beyond the interface is tangential to it where it is met.
-    pub system Tangent {
-        state x, y;
-        interface wall = x;
-        region right where wall > 0 {
-            der(x) = -1;
-            der(y) = 0;
-        }
-        region left where wall < 0 {
-            der(x) = y - 1;
-            der(y) = x;
-        }
-    }
-}
 
 const STEP_SIZE: f64 = 0.01;
 /// When the injected failures begin.
@@ -85,10 +41,10 @@ pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         return Vec::new();
     }
     for tolerance in [1e-3, 1e-12] {
-        let scheme = Taylor::tolerance(tolerance);
-        formulas(observer, &format!("Taylor {tolerance:e}"), &scheme);
+        let name = format!("Taylor {tolerance:e}");
+        formulas(observer, &name, MethodName::Taylor, tolerance);
     }
-    formulas(observer, "Symmetric", &Symmetric::step_size(STEP_SIZE));
+    formulas(observer, "Symmetric", MethodName::Symmetric, f64::NAN);
     Vec::new()
 }
 
@@ -185,84 +141,66 @@ fn elliptic<Met: Method>(what: &str, expected: &str, method: Met) -> Row {
     let result = Integrator::new(&system, method)
         .initial(0.0, [-1.0, -1.0])
         .run_until(T_END);
-    judge(what, "Symmetric", expected, result)
+    let ended = result.err().map(|interrupted| {
+        let reached = interrupted
+            .solution()
+            .last()
+            .map_or(f64::NAN, |point| point.t);
+        (reached, interrupted.into())
+    });
+    judge(what, "Symmetric", expected, ended)
 }
 
 /// Formulas that have no value, and fields that do not say how to go on.
-fn formulas<Sch: Method>(observer: &mut dyn Observe, name: &str, scheme: &Sch) {
-    let mut row = |row| observer.ended(row);
-    row(refused(
-        "blow-up at t = 1",
-        "left the domain",
-        name,
-        &Blowup {},
-        scheme,
-        [1.0],
-    ));
-    row(refused(
-        "logarithm ends at t = 1",
-        "left the domain",
-        name,
-        &Logarithm {},
-        scheme,
-        [1.0, 0.0],
-    ));
-    row(refused(
-        "sliding from t = 1",
-        "sliding",
-        name,
-        &Stuck {},
-        scheme,
-        [1.0, 1.0],
-    ));
-    row(refused(
-        "tangential at t = 1",
-        "tangential",
-        name,
-        &Tangent {},
-        scheme,
-        [1.0, 1.0],
-    ));
+fn formulas(observer: &mut dyn Observe, name: &str, method: MethodName, tolerance: f64) {
+    for (what, expected, problem) in [
+        ("blow-up at t = 1", "left the domain", blowup()),
+        ("logarithm ends at t = 1", "left the domain", logarithm()),
+        ("sliding from t = 1", "sliding", stuck()),
+        ("tangential at t = 1", "tangential", tangent()),
+    ] {
+        let run = Run {
+            method,
+            tolerance,
+            ..problem.default_run()
+        };
+        let mut last = Last(f64::NAN);
+        let error = problem.integrate(&run, &mut last).err();
+        observer.ended(judge(
+            what,
+            name,
+            expected,
+            error.map(|error| (last.0, error)),
+        ));
+    }
 }
 
-/// A run that has to be refused in the expected way.
-fn refused<Sys: System<N>, Sch: Method, const N: usize>(
-    what: &str,
-    expected: &str,
-    name: &str,
-    system: &Sys,
-    scheme: &Sch,
-    x0: [f64; N],
-) -> Row {
-    let problem = Integrator::new(system, scheme.clone()).initial(0.0, x0);
-    judge(what, name, expected, problem.run_until(T_END))
+/// The time of the last point.
+struct Last(f64);
+
+impl AnyObserver for Last {
+    fn record(&mut self, record: &Record<'_>) -> ControlFlow<()> {
+        self.0 = record.t;
+        ControlFlow::Continue(())
+    }
 }
 
 /// All these runs have to be refused, at t = 1 or at the first step or crossing after it, with
-/// the solution that was there before.
-fn judge<Sys: System<N>, Sch: Method, const N: usize>(
-    what: &str,
-    scheme: &str,
-    expected: &str,
-    result: Result<dmm_runtime::Solution<Sys, Sch, N>, Interrupted<Sys, Sch, N>>,
-) -> Row {
-    let interrupted = match result {
-        Ok(_) => return Row::new(what, scheme, Verdict::Wrong, "integrated to the end"),
-        Err(interrupted) => interrupted,
+/// the solution that was there before: where it ended, and by which error.
+fn judge(what: &str, scheme: &str, expected: &str, ended: Option<(f64, Error)>) -> Row {
+    let Some((reached, error)) = ended else {
+        return Row::new(what, scheme, Verdict::Wrong, "integrated to the end");
     };
-    let error = interrupted.error();
     // where a solution ends is met in one way or another
     let is_blow_up = matches!(error.kind, ErrorKind::NewtonFailed { .. });
     let found = if is_blow_up && what.starts_with("blow-up") {
         expected
     } else {
-        kind_of(error)
+        kind_of(&error)
     };
-    let reached = interrupted.solution().last();
-    let reached = reached.map_or(f64::NAN, |point| point.t);
     // the last points of a solution that ends at 1 may be a step before it or after
     let holds = found == expected && (0.8..=1.5).contains(&reached);
-    let finding = format!("{} at t = {reached:.3}", kind_of(interrupted.error()));
+    let finding = format!("{} at t = {reached:.3}", kind_of(&error));
     let verdict = if holds {
         Verdict::Refused
     } else {

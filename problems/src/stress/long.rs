@@ -131,13 +131,13 @@ fn measure(
     let (ulps, exponent) = (meter.growth.largest(), meter.growth.exponent());
     let what = format!("{}, {:.0e} steps", problem.description().name, steps as f64);
     let row = match result {
-        Ok(statistics) => Row::new(
+        Ok(finish) => Row::new(
             what,
             setting.name,
             Verdict::within(ulps <= BOUND),
             format!(
                 "{ulps:.2} ulp after {} transitions, growing with the power {exponent:.2}",
-                statistics.transitions
+                finish.statistics.transitions
             ),
         ),
         // nothing stands in the way of these runs

@@ -109,8 +109,8 @@ impl AnyObserver for Last {
         self.0 = x.to_vec();
     }
 
-    fn wants_records(&self) -> bool {
-        false
+    fn record_every(&self) -> u64 {
+        0
     }
 }
 

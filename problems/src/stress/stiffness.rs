@@ -24,8 +24,8 @@ impl AnyObserver for Crossings {
         ControlFlow::Continue(())
     }
 
-    fn wants_records(&self) -> bool {
-        false
+    fn record_every(&self) -> u64 {
+        0
     }
 }
 

@@ -62,6 +62,55 @@ pws! {
     }
 }
 
+pws! {
+    /// ẋ = x², which is infinite at t = 1/x(0).
+    pub system Blowup {
+        state x;
+        der(x) = x^2;
+    }
+}
+
+pws! {
+    /// Falls at a steady rate to where ln x ends.
+    pub system Logarithm {
+        state x, y;
+        der(x) = -1;
+        der(y) = ln(x);
+    }
+}
+
+pws! {
+    /// Both fields point at the interface where y > 0.
+    pub system Stuck {
+        state x, y;
+        interface wall = x;
+        region right where wall > 0 {
+            der(x) = -1;
+            der(y) = 0;
+        }
+        region left where wall < 0 {
+            der(x) = y;
+            der(y) = 0;
+        }
+    }
+}
+
+pws! {
+    /// The field beyond the interface is tangential to it where it is met.
+    pub system Tangent {
+        state x, y;
+        interface wall = x;
+        region right where wall > 0 {
+            der(x) = -1;
+            der(y) = 0;
+        }
+        region left where wall < 0 {
+            der(x) = y - 1;
+            der(y) = x;
+        }
+    }
+}
+
 /// A description without a source.
 const fn description(
     name: &'static str,
@@ -104,4 +153,27 @@ pub(super) fn quartic() -> Problem {
 /// [`Warped`]
 pub(super) fn warped() -> Problem {
     registry::of(WARPED, &Warped::default())
+}
+
+/// [`Blowup`], of which t = 1 is the end.
+pub(super) fn blowup() -> Problem {
+    registry::of(description("blowup", "blow-up", &[1.0]), &Blowup {})
+}
+
+/// [`Logarithm`], of which t = 1 is the end.
+pub(super) fn logarithm() -> Problem {
+    let description = description("logarithm", "the end of a logarithm", &[1.0, 0.0]);
+    registry::of(description, &Logarithm {})
+}
+
+/// [`Stuck`], at t = 1.
+pub(super) fn stuck() -> Problem {
+    let description = description("stuck", "two fields against each other", &[1.0, 1.0]);
+    registry::of(description, &Stuck {})
+}
+
+/// [`Tangent`], at t = 1.
+pub(super) fn tangent() -> Problem {
+    let description = description("tangent", "a field along an interface", &[1.0, 1.0]);
+    registry::of(description, &Tangent {})
 }

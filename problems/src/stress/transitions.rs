@@ -6,7 +6,6 @@
 
 use std::ops::ControlFlow;
 
-use dmm_runtime::{Integrator, Observer, Taylor, Transition};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
 
@@ -14,11 +13,10 @@ use super::report::{Extent, Observe, Row, Verdict};
 use super::setting::{SETTINGS, Setting};
 use super::systems::warped;
 use crate::growth::Growth;
-use crate::problem::{AnyObserver, Crossed, Problem, Record, Run};
+use crate::method::MethodName;
+use crate::problem::{AnyObserver, Crossed, Finish, Problem, Record, Run};
 use crate::reference::Reference;
 use crate::registry::find;
-use crate::systems::Elliptic;
-use crate::systems::elliptic::EllipticRegion;
 use dmm_picture::{Axis, Look, Panel, Scale, Stroke};
 
 /// Levels are of the order of 1: a few units in the last place, and what a random walk of
@@ -32,17 +30,10 @@ const PINNED: f64 = 1e-28;
 pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     let transitions = extent.of(1_000_000, 500);
     let mut panels = Vec::new();
-    let problems: [(&str, Problem); 2] = [
-        (
-            "closed orbit",
-            match find("elliptic") {
-                Ok(problem) => problem,
-                Err(_) => return panels,
-            },
-        ),
-        ("open orbit", warped()),
-    ];
-    for (kind, problem) in problems {
+    let Ok(elliptic) = find("elliptic") else {
+        return panels;
+    };
+    for (kind, problem) in [("closed orbit", &elliptic), ("open orbit", &warped())] {
         let mut panel = Panel::new(
             format!("{}: {kind}", problem.description().name),
             Axis::new("transitions", Scale::Decades),
@@ -53,7 +44,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
             if observer.begins(&case).is_break() {
                 break;
             }
-            let Some((row, growth)) = measure(&problem, &setting, transitions, observer) else {
+            let Some((row, growth)) = measure(problem, &setting, transitions, observer) else {
                 break;
             };
             observer.ended(row);
@@ -66,7 +57,7 @@ pub(super) fn study(extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
         return panels;
     }
     for tolerance in [1e-3, 1e-12] {
-        match pinned(tolerance, transitions, observer) {
+        match pinned(&elliptic, tolerance, transitions, observer) {
             Some(row) => observer.ended(row),
             None => break,
         }
@@ -189,8 +180,8 @@ struct Stop<'a> {
     observer: &'a mut dyn Observe,
 }
 
-impl Observer<EllipticRegion, 2> for Stop<'_> {
-    fn transition(&mut self, _: &Transition<EllipticRegion, 2>) -> ControlFlow<()> {
+impl AnyObserver for Stop<'_> {
+    fn transition(&mut self, _: &Crossed) -> ControlFlow<()> {
         self.transitions += 1;
         if self.transitions == self.wanted {
             return ControlFlow::Break(());
@@ -201,12 +192,20 @@ impl Observer<EllipticRegion, 2> for Stop<'_> {
         self.is_stopped = flow.is_break();
         flow
     }
+
+    fn record_every(&self) -> u64 {
+        0
+    }
 }
 
 /// The level of `elliptic` outside of the circle after an even number of transitions, evaluated
 /// exactly at the state with its remainder: it was 0 at the start. Nothing if the run was stopped.
-fn pinned(tolerance: f64, transitions: u64, observer: &mut dyn Observe) -> Option<Row> {
-    let system = Elliptic::default();
+fn pinned(
+    problem: &Problem,
+    tolerance: f64,
+    transitions: u64,
+    observer: &mut dyn Observe,
+) -> Option<Row> {
     let what = format!("elliptic, state with remainder, {transitions} transitions");
     let scheme = format!("Taylor {tolerance:e}");
     let mut stop = Stop {
@@ -215,27 +214,32 @@ fn pinned(tolerance: f64, transitions: u64, observer: &mut dyn Observe) -> Optio
         is_stopped: false,
         observer,
     };
-    let result = Integrator::new(&system, Taylor::tolerance(tolerance))
-        .initial(0.0, [-1.0, -1.0])
-        .observe_until(100.0 * transitions as f64, &mut stop);
+    let run = Run {
+        method: MethodName::Taylor,
+        tolerance,
+        t_end: 100.0 * transitions as f64,
+        ..problem.default_run()
+    };
+    let result = problem.integrate(&run, &mut stop);
     if stop.is_stopped {
         return None;
     }
     Some(match result {
-        Ok(end) => {
-            let rational = |value: f64| BigRational::from_float(value);
-            let exactly = |i: usize| Some(rational(end.point.x[i])? + rational(end.remainder[i])?);
-            let level = exactly(0).zip(exactly(1)).map(|(x, y)| {
-                let a = BigRational::from_integer((system.a_outside as i64).into());
-                &y * &y - &x * &x * &x - a * &x
-            });
-            let level = level
-                .and_then(|level| level.to_f64())
-                .unwrap_or(f64::NAN)
-                .abs();
+        Ok(finish) => {
+            let level = exact_level(problem, &finish).map_or(f64::NAN, f64::abs);
             let finding = format!("level off by {level:.1e}");
             Row::new(what, scheme, Verdict::within(level <= PINNED), finding)
         }
         Err(error) => Row::new(what, scheme, Verdict::Wrong, error.to_string()),
     })
+}
+
+/// y² − x³ − a x, of the state with its remainder.
+fn exact_level(problem: &Problem, finish: &Finish) -> Option<f64> {
+    let rational = |value: f64| BigRational::from_float(value);
+    let exactly = |i: usize| Some(rational(finish.x[i])? + rational(finish.remainder[i])?);
+    let (x, y) = (exactly(0)?, exactly(1)?);
+    let mut parameters = problem.parameters().into_iter();
+    let (_, a) = parameters.find(|(name, _)| *name == "a_outside")?;
+    (&y * &y - &x * &x * &x - rational(a)? * &x).to_f64()
 }

@@ -85,8 +85,8 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     if !cfg!(feature = "compiled") {
         writeln!(
             std::io::stdout(),
-            "all but harmonic and elliptic are compiled at run time, at some times the cost of generated \
-             code; built with `--features compiled` all are generated"
+            "the systems are compiled at run time, at some times the cost of generated code, which \
+             runs if the program is built with `--features compiled`"
         )?;
     }
     out.add(csv.finish()?);

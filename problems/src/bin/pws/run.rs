@@ -95,9 +95,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
             let t = output::number(finished.t);
             Err(Failure::Interrupted(format!("at t = {t}")))
         }
-        (Ok(statistics), None) => drawn
+        (Ok(finish), None) => drawn
             .and(told)
-            .and_then(|()| time(problem, &run, &statistics, elapsed)),
+            .and_then(|()| time(problem, &run, &finish.statistics, elapsed)),
     };
     out.finish(&outcome)?;
     outcome
