@@ -1,56 +1,45 @@
 //! One interface, x = 0.2, written in ten ways: the same itinerary and the same times, whatever
 //! the switching function's series, scale and domain are.
 
-use dmm_runtime::{
-    Best, Composed, Ensemble, Integrator, Member, Method, Symmetric, System, Taylor,
-};
+use std::ops::ControlFlow;
 
-macro_rules! pendulums {
-    ($($name:ident: [$($g:tt)+];)+) => {
-        $(mod $name {
-            use dmm_runtime::pws;
+use dmm_problems::method::MethodName;
+use dmm_problems::problem::{Problem, Run};
+use dmm_runtime::Model;
+use dmm_runtime::dynamic::{AnyObserver, Crossed, Parallelism, Start};
 
-            pws! {
-                /// A pendulum with a stronger torque beyond x = 0.2.
-                pub(super) system Pendulum {
-                    state x, v;
-                    interface border = $($g)+;
-                    der(x) = v;
-                    region near where border < 0 {
-                        der(v) = -sin(x);
-                        conserved energy = v^2 / 2 - cos(x);
-                    }
-                    region far where border > 0 {
-                        der(v) = -3 * sin(x);
-                        conserved energy = v^2 / 2 - 3 * cos(x);
-                    }
-                }
-            }
-        })+
+/// The forms of the switching function.
+const FORMS: [(&str, &str); 10] = [
+    ("plain", "x - 0.2"),
+    ("exponential", "exp(x) - exp(0.2)"),
+    ("logarithm", "ln(x + 2) - ln(2.2)"),
+    ("tangent", "tanh(x - 0.2)"),
+    ("arctangent", "atan(x - 0.2)"),
+    ("cubic", "(x - 0.2)^3 + (x - 0.2)"),
+    ("rational", "(x - 0.2) / (0.01 + x^2)"),
+    ("wavy", "x - 0.2 + 0.1 * sin(x - 0.2)"),
+    ("smoothed", "(x - 0.2) / sqrt(1e-2 + (x - 0.2)^2)"),
+    ("root", "sqrt(x + 3) - sqrt(3.2)"),
+];
 
-        /// The crossings of each of the ten with a scheme, from each start.
-        fn all(scheme: impl Method) -> Vec<(&'static str, Vec<Orbit>)> {
-            vec![$((stringify!($name), orbits($name::Pendulum {}, scheme.clone()))),+]
-        }
-
-        /// Their ends in the lanes of an ensemble.
-        fn all_in_lanes(scheme: impl Method) -> Vec<(&'static str, Vec<Orbit>)> {
-            vec![$((stringify!($name), in_lanes($name::Pendulum {}, scheme.clone()))),+]
-        }
-    };
-}
-
-pendulums! {
-    plain: [x - 0.2];
-    exponential: [exp(x) - exp(0.2)];
-    logarithm: [ln(x + 2) - ln(2.2)];
-    tangent: [tanh(x - 0.2)];
-    arctangent: [atan(x - 0.2)];
-    cubic: [(x - 0.2)^3 + (x - 0.2)];
-    rational: [(x - 0.2) / (0.01 + x^2)];
-    wavy: [x - 0.2 + 0.1 * sin(x - 0.2)];
-    smoothed: [(x - 0.2) / sqrt(1e-2 + (x - 0.2)^2)];
-    root: [sqrt(x + 3) - sqrt(3.2)];
+/// A pendulum with a stronger torque beyond x = 0.2.
+fn pendulum(form: &str) -> Problem {
+    let model = Model::compile(&format!(
+        "system Pendulum {{
+            state x, v;
+            interface border = {form};
+            der(x) = v;
+            region near where border < 0 {{
+                der(v) = -sin(x);
+                conserved energy = v^2 / 2 - cos(x);
+            }}
+            region far where border > 0 {{
+                der(v) = -3 * sin(x);
+                conserved energy = v^2 / 2 - 3 * cos(x);
+            }}
+        }}"
+    ));
+    Problem::own(model.unwrap()).unwrap()
 }
 
 const T_END: f64 = 20.0;
@@ -68,39 +57,88 @@ const STARTS: [[f64; 2]; 6] = [
 #[derive(Debug)]
 enum Orbit {
     /// The times of its crossings and its end.
-    Ended { times: Vec<f64>, x: [f64; 2] },
+    Ended { times: Vec<f64>, x: Vec<f64> },
     /// What stopped it.
     Stopped(String),
 }
 
-fn orbits<Sys: System<2>>(system: Sys, scheme: impl Method) -> Vec<Orbit> {
-    let orbit = |start: &[f64; 2]| {
-        let problem = Integrator::new(&system, scheme.clone()).initial(0.0, *start);
-        match problem.run_until(T_END) {
-            Ok(solution) => Orbit::Ended {
-                times: solution.transitions().iter().map(|found| found.t).collect(),
-                x: solution
-                    .last()
-                    .map_or([f64::NAN; 2], |point| point.x.into()),
-            },
-            Err(stopped) => Orbit::Stopped(stopped.to_string()),
-        }
-    };
-    STARTS.iter().map(orbit).collect()
+/// A run by a method, of which the value is the step size or the tolerance.
+fn run(problem: &Problem, method: MethodName, value: f64) -> Run {
+    Run {
+        method,
+        step_size: value,
+        tolerance: value,
+        t_end: T_END,
+        ..problem.default_run()
+    }
 }
 
-fn in_lanes<Sys: System<2>>(system: Sys, scheme: impl Method) -> Vec<Orbit> {
-    let members = STARTS.map(|start| Member::new(system.clone(), 0.0, start));
-    let outcomes = Ensemble::new(scheme).collect_until(T_END, members);
-    let orbit = |outcome: dmm_runtime::Outcome<Sys::Region, 2>| match outcome {
-        Ok(end) => Orbit::Ended {
-            // only their number is told
-            times: vec![0.0; end.statistics.transitions as usize],
-            x: end.point.x.into(),
-        },
-        Err(stopped) => Orbit::Stopped(stopped.to_string()),
+/// The times of crossings.
+struct Times(Vec<f64>);
+
+impl AnyObserver for Times {
+    fn transition(&mut self, crossed: &Crossed) -> ControlFlow<()> {
+        self.0.push(crossed.t);
+        ControlFlow::Continue(())
+    }
+
+    fn record_every(&self) -> u64 {
+        0
+    }
+}
+
+/// The crossings of each of the ten with a method, from each start.
+fn all(method: MethodName, value: f64) -> Vec<(&'static str, Vec<Orbit>)> {
+    let orbits = |form| {
+        let problem = pendulum(form);
+        let orbit = |start: &[f64; 2]| {
+            let run = Run {
+                initial: start.to_vec(),
+                ..run(&problem, method, value)
+            };
+            let mut times = Times(Vec::new());
+            match problem.integrate(&run, &mut times) {
+                Ok(finish) => Orbit::Ended {
+                    times: times.0,
+                    x: finish.x,
+                },
+                Err(stopped) => Orbit::Stopped(stopped.to_string()),
+            }
+        };
+        STARTS.iter().map(orbit).collect()
     };
-    outcomes.into_iter().map(orbit).collect()
+    FORMS.map(|(name, form)| (name, orbits(form))).into()
+}
+
+/// Their ends in the lanes of an ensemble.
+fn all_in_lanes(method: MethodName, value: f64) -> Vec<(&'static str, Vec<Orbit>)> {
+    let parallelism = Parallelism {
+        threads: None,
+        lanes: true,
+    };
+    let orbits = |form| {
+        let problem = pendulum(form);
+        let mut starts = STARTS.iter().map(|start| Start {
+            parameters: Vec::new(),
+            initial: start.to_vec(),
+        });
+        let mut orbits = Vec::new();
+        let run = run(&problem, method, value);
+        problem.integrate_all(&run, parallelism, &mut starts, &mut |outcome| {
+            orbits.push(match (outcome.error, outcome.arrival) {
+                (None, Some(end)) => Orbit::Ended {
+                    // only their number is told
+                    times: vec![0.0; end.statistics.transitions as usize],
+                    x: end.x,
+                },
+                (error, _) => Orbit::Stopped(format!("{error:?}")),
+            });
+            ControlFlow::Continue(())
+        });
+        assert_eq!(orbits.len(), STARTS.len());
+        orbits
+    };
+    FORMS.map(|(name, form)| (name, orbits(form))).into()
 }
 
 /// Every form has the itinerary, the times and the ends of the first, to a bound.
@@ -147,31 +185,31 @@ const OF_ROUNDING: f64 = 1e-12;
 
 #[test]
 fn taylor_sees_one_interface() {
-    agree(&all(Taylor::tolerance(1e-14)), OF_ROUNDING);
+    agree(&all(MethodName::Taylor, 1e-14), OF_ROUNDING);
 }
 
 #[test]
 fn best_sees_one_interface() {
-    agree(&all(Best::tolerance(1e-14)), OF_ROUNDING);
+    agree(&all(MethodName::Best, 1e-14), OF_ROUNDING);
 }
 
 #[test]
 fn lanes_see_one_interface() {
-    agree(&all_in_lanes(Taylor::tolerance(1e-14)), OF_ROUNDING);
+    agree(&all_in_lanes(MethodName::Taylor, 1e-14), OF_ROUNDING);
 }
 
 /// Uniform steps are the same for every form: what differs is the rounding of a root.
 #[test]
 fn uniform_steps_see_one_interface() {
-    agree(&all(Symmetric::step_size(0.02)), OF_ROUNDING);
-    agree(&all(Composed::<4>::step_size(0.05)), OF_ROUNDING);
-    agree(&all(Composed::<8>::step_size(0.2)), OF_ROUNDING);
+    agree(&all(MethodName::Symmetric, 0.02), OF_ROUNDING);
+    agree(&all(MethodName::Composed4, 0.05), OF_ROUNDING);
+    agree(&all(MethodName::Composed8, 0.2), OF_ROUNDING);
 }
 
 /// Steps by a tolerance may depend on the form, and so does their error: some hundred times the
 /// tolerance after as many steps.
 #[test]
 fn steps_by_tolerance_see_one_interface() {
-    agree(&all(Symmetric::tolerance(1e-5)), 1e-2);
-    agree(&all(Composed::<6>::tolerance(1e-10)), 1e-7);
+    agree(&all(MethodName::SymmetricAdaptive, 1e-5), 1e-2);
+    agree(&all(MethodName::Composed8Adaptive, 1e-10), 1e-7);
 }

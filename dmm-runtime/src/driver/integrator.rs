@@ -3,9 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::Recording;
-use super::conditions::check_conditions;
 use super::run::Run;
-use super::start::{Start, check_region, find_region};
+use super::start::Start;
 use crate::contract::{InitialState, System, Vector};
 use crate::error::{Error, ErrorKind, invalid, number};
 use crate::method::Method;
@@ -179,14 +178,17 @@ where
         let (x0, start) = self.start(t_end).map_err(Halted::at_start)?;
         let Integrator { system, method } = &self.integrator;
         let system = *system;
-        let mut run = Run::<Sys, Met, N>::new((system, method), (self.t0, x0), start, t_end);
+        let mut memory = method.memory(self.t0, t_end);
+        let mut run = Run::new(system, (self.t0, x0), start);
         while let Some(t) = observer.next_output()
             && t <= self.t0
         {
             observer.output(&Point { t, ..run.point() });
         }
         let result = match observer.point(&run.point()) {
-            ControlFlow::Continue(()) => run.run_until(system, method, t_end, observer),
+            ControlFlow::Continue(()) => {
+                run.run_until(system, (method, &mut memory), t_end, observer)
+            }
             ControlFlow::Break(()) => Ok(EndedBy::Observer),
         };
         match result {
@@ -201,12 +203,7 @@ where
         method.check(self.t0, t_end)?;
         check_times(self.t0, t_end)?;
         let x0 = self.x0.clone()?;
-        check_values(*system, &x0)?;
-        let start = match self.region {
-            Some(region) => check_region(*system, region, (self.t0, t_end), &x0),
-            None => find_region(*system, None, self.t0, &x0),
-        }?;
-        check_conditions(*system, start.region, self.t0, &x0)?;
+        let start = Start::checked(*system, (self.region, None), (self.t0, t_end), &x0)?;
         Ok((x0, start))
     }
 
@@ -234,28 +231,4 @@ pub(super) fn check_times(t0: f64, t_end: f64) -> Result<(), Error> {
         );
     }
     Ok(())
-}
-
-/// Checks the state and the parameters at a start.
-pub(super) fn check_values<Sys: System<N>, const N: usize>(
-    system: &Sys,
-    x0: &Vector<f64, N>,
-) -> Result<(), Error> {
-    let names = system.metadata();
-    if let Some(refusal) = system.refusal() {
-        return invalid("system", format!("{} backwards", names.name), refusal);
-    }
-    if let Some(i) = (0..N).find(|&i| !x0[i].is_finite()) {
-        return invalid(
-            "initial state",
-            format!("{} = {}", names.states[i], x0[i]),
-            "must be finite",
-        );
-    }
-    let parameters = names.parameters.iter().zip(system.parameters());
-    let mut infinite = parameters.filter(|(_, value)| !value.is_finite());
-    match infinite.next() {
-        Some((name, value)) => invalid("parameter", format!("{name} = {value}"), "must be finite"),
-        None => Ok(()),
-    }
 }

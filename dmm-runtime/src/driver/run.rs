@@ -22,46 +22,36 @@ use crate::output::{End, EndedBy, Observer, Point, Transition, TransitionKind};
 
 /// An integration under way.
 #[derive(Clone, Debug)]
-pub(crate) struct Run<Sys: System<N>, Met: Method, const N: usize> {
+pub(crate) struct Run<Sys: System<N>, const N: usize> {
     pub(crate) cursor: Cursor<N>,
     pub(crate) region: Sys::Region,
-    pub(crate) memory: Met::Memory<N>,
     pub(crate) statistics: Statistics,
     pub(crate) accumulation: Accumulation,
     pub(crate) modes: Modes<Sys::Region>,
 }
 
-impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
+impl<Sys: System<N>, const N: usize> Run<Sys, N> {
     /// At the start.
     pub(crate) fn new(
-        (system, method): (&Sys, &Met),
+        system: &Sys,
         (t0, x0): (f64, Vector<f64, N>),
         start: Start<Sys::Region>,
-        t_end: f64,
     ) -> Self {
         let (time, state) = (Time::new(t0), State::new(x0));
         let cursor = Cursor::new(time, state, 0, start.on);
-        let memory = method.memory(t0, t_end);
-        Self::at((system, method), cursor, start.region, memory)
+        Self::at(system, cursor, start.region)
     }
 
     /// At a cursor in a mode.
-    pub(crate) fn at(
-        (system, method): (&Sys, &Met),
-        cursor: Cursor<N>,
-        region: Sys::Region,
-        memory: Met::Memory<N>,
-    ) -> Self {
+    pub(crate) fn at(system: &Sys, cursor: Cursor<N>, region: Sys::Region) -> Self {
         let mut run = Self {
             accumulation: Accumulation::new(cursor.time),
             cursor,
             region,
-            memory,
             statistics: Statistics::default(),
             modes: Modes::default(),
         };
-        let Self { modes, memory, .. } = &mut run;
-        run.cursor.mode = modes.number(system, region, method, memory);
+        run.cursor.mode = run.modes.number(system, region);
         run
     }
 
@@ -86,15 +76,15 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
     }
 
     /// Segment, event, next mode, until the end time or the observer's wish.
-    pub(crate) fn run_until<Obs: Observer<Sys::Region, N>>(
+    pub(crate) fn run_until<Met: Method, Obs: Observer<Sys::Region, N>>(
         &mut self,
         system: &Sys,
-        method: &Met,
+        (method, memory): (&Met, &mut Met::Memory<N>),
         until: f64,
         observer: &mut Obs,
     ) -> Result<EndedBy, Error> {
         loop {
-            let (guard, rate) = match self.segment(system, method, until, observer)? {
+            let (guard, rate) = match self.segment(system, (method, memory), until, observer)? {
                 Ended::Finished => return Ok(EndedBy::EndTime),
                 Ended::Stopped => return Ok(EndedBy::Observer),
                 Ended::AtGuard { guard, rate } => (guard, rate),
@@ -102,7 +92,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
             if observer.point(&self.point()).is_break() {
                 return Ok(EndedBy::Observer);
             }
-            let transition = self.next_mode((system, method), guard, rate)?;
+            let transition = self.next_mode(system, guard, rate)?;
             if transition.is_some_and(|transition| observer.transition(&transition).is_break())
                 || observer.point(&self.point()).is_break()
             {
@@ -113,19 +103,19 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
 
     /// A segment in the present mode.
     #[inline(always)]
-    pub(crate) fn segment<Obs: Observer<Sys::Region, N>>(
+    pub(crate) fn segment<Met: Method, Obs: Observer<Sys::Region, N>>(
         &mut self,
         system: &Sys,
-        method: &Met,
+        (method, memory): (&Met, &mut Met::Memory<N>),
         until: f64,
         observer: &mut Obs,
     ) -> Result<Ended, Error> {
+        if self.modes.are_given_anew() {
+            method.forget_modes(memory);
+        }
         let region = self.region;
         let Self {
-            cursor,
-            memory,
-            statistics,
-            ..
+            cursor, statistics, ..
         } = self;
         let ended = if const { Obs::LISTENS } {
             let mut listener = InMode { region, observer };
@@ -194,7 +184,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
     /// that has to do with events alone, where none happens.
     pub(crate) fn next_mode(
         &mut self,
-        (system, method): (&Sys, &Met),
+        system: &Sys,
         guard: usize,
         rate: f64,
     ) -> Result<Option<Transition<Sys::Region, N>>, Error> {
@@ -212,8 +202,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> Run<Sys, Met, N> {
         if let Some(state) = next.state {
             self.cursor.state = state;
         }
-        let Self { modes, memory, .. } = self;
-        let mode = modes.number(system, next.mode, method, memory);
+        let mode = self.modes.number(system, next.mode);
         self.cursor.enter(mode, next.active);
         Ok(next.transition)
     }

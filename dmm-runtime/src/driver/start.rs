@@ -12,10 +12,11 @@
 //! has left it.
 
 use super::around::Around;
+use super::conditions::check_conditions;
 use super::events::with_clocks;
 use super::reading::Reading;
 use crate::contract::{System, Vector};
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, invalid};
 use crate::method::Active;
 
 /// Where an integration starts.
@@ -26,9 +27,29 @@ pub(crate) struct Start<R> {
     pub(crate) on: Active,
 }
 
+impl<R: Copy> Start<R> {
+    /// The start at (t, x) of a run until `t_end`, after all input is checked: in a region that is
+    /// named, or in the one that the solution enters, with the discrete states of one like it or the
+    /// initial ones.
+    pub(super) fn checked<Sys: System<N, Region = R>, const N: usize>(
+        system: &Sys,
+        (named, like): (Option<R>, Option<R>),
+        (t, t_end): (f64, f64),
+        x: &Vector<f64, N>,
+    ) -> Result<Self, Error> {
+        check_values(system, x)?;
+        let start = match named {
+            Some(region) => check_region(system, region, (t, t_end), x),
+            None => find_region(system, like, t, x),
+        }?;
+        check_conditions(system, start.region, t, x)?;
+        Ok(start)
+    }
+}
+
 /// Determines the region of a start at (t, x) that names none; discrete states are those of `like`,
 /// or the initial ones.
-pub(crate) fn find_region<Sys: System<N>, const N: usize>(
+fn find_region<Sys: System<N>, const N: usize>(
     system: &Sys,
     like: Option<Sys::Region>,
     t: f64,
@@ -42,7 +63,7 @@ pub(crate) fn find_region<Sys: System<N>, const N: usize>(
 }
 
 /// Checks a region that the caller named against the signs at (t, x), in a run until `t_end`.
-pub(crate) fn check_region<Sys: System<N>, const N: usize>(
+fn check_region<Sys: System<N>, const N: usize>(
     system: &Sys,
     region: Sys::Region,
     (t, t_end): (f64, f64),
@@ -98,4 +119,28 @@ pub(crate) fn check_region<Sys: System<N>, const N: usize>(
         }
     }
     Ok(Start { region, on })
+}
+
+/// Checks the state and the parameters at a start.
+fn check_values<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    x0: &Vector<f64, N>,
+) -> Result<(), Error> {
+    let names = system.metadata();
+    if let Some(refusal) = system.refusal() {
+        return invalid("system", format!("{} backwards", names.name), refusal);
+    }
+    if let Some(i) = (0..N).find(|&i| !x0[i].is_finite()) {
+        return invalid(
+            "initial state",
+            format!("{} = {}", names.states[i], x0[i]),
+            "must be finite",
+        );
+    }
+    let parameters = names.parameters.iter().zip(system.parameters());
+    let mut infinite = parameters.filter(|(_, value)| !value.is_finite());
+    match infinite.next() {
+        Some((name, value)) => invalid("parameter", format!("{name} = {value}"), "must be finite"),
+        None => Ok(()),
+    }
 }

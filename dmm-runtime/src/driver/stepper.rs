@@ -2,10 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::conditions::check_conditions;
-use super::integrator::{InitialValueProblem, check_times, check_values};
+use super::integrator::{InitialValueProblem, check_times};
 use super::run::Run;
-use super::start::{check_region, find_region};
+use super::start::Start;
 use crate::arithmetic::State;
 use crate::contract::{InitialState, System, Vector};
 use crate::error::{Error, invalid, number};
@@ -69,7 +68,8 @@ pub enum Stepped<R, const N: usize> {
 pub struct Stepper<Sys: System<N>, Met: Method, const N: usize> {
     system: Sys,
     method: Met,
-    run: Run<Sys, Met, N>,
+    run: Run<Sys, N>,
+    memory: Met::Memory<N>,
     t_end: f64,
     /// The guard that the last step has led to, and its rate.
     met: Option<(usize, f64)>,
@@ -96,7 +96,8 @@ impl<Sys: System<N>, Met: Method, const N: usize> InitialValueProblem<'_, Sys, M
             self.integrator.method.clone(),
         );
         Ok(Stepper {
-            run: Run::new((&system, &method), (self.t0, x0), start, t_end),
+            run: Run::new(&system, (self.t0, x0), start),
+            memory: method.memory(self.t0, t_end),
             system,
             method,
             t_end,
@@ -111,15 +112,15 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
     /// # Errors
     /// Whatever stops the integration; the stepper is still at the point before.
     pub fn step(&mut self) -> Result<Option<Stepped<Sys::Region, N>>, Error> {
-        let (system, method) = (&self.system, &self.method);
+        let (system, moving) = (&self.system, (&self.method, &mut self.memory));
         if let Some((guard, rate)) = self.met {
-            let transition = self.run.next_mode((system, method), guard, rate)?;
+            let transition = self.run.next_mode(system, guard, rate)?;
             self.met = None;
             if let Some(transition) = transition {
                 return Ok(Some(Stepped::Transition(transition)));
             }
         }
-        match self.run.segment(system, method, self.t_end, &mut Once)? {
+        match self.run.segment(system, moving, self.t_end, &mut Once)? {
             Ended::Finished => return Ok(None),
             Ended::Stopped => {}
             Ended::AtGuard { guard, rate } => self.met = Some((guard, rate)),
@@ -193,20 +194,16 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
             state = State::new(x);
         }
         let t = time.value;
-        check_values(&system, &x)?;
-        let start = match region {
-            Some(region) => check_region(&system, region, (t, self.t_end), &x),
-            None => find_region(&system, Some(self.run.region), t, &x),
-        }?;
-        check_conditions(&system, start.region, t, &x)?;
+        let regions = (region, Some(self.run.region));
+        let start = Start::checked(&system, regions, (t, self.t_end), &x)?;
         let cursor = Cursor::new(time, state, 0, start.on);
-        let memory = self.method.memory(t, self.t_end);
         let (statistics, accumulation) = (self.run.statistics, self.run.accumulation);
         self.run = Run {
             statistics,
             accumulation,
-            ..Run::at((&system, &self.method), cursor, start.region, memory)
+            ..Run::at(&system, cursor, start.region)
         };
+        self.memory = self.method.memory(t, self.t_end);
         self.system = system;
         self.met = None;
         Ok(())

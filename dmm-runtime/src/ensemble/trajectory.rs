@@ -147,23 +147,24 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         self.judge()?;
         let active = std::mem::take(&mut self.active);
         let cursor = Cursor::new(self.time, self.state, 0, active);
-        let mut run = Run::<Sys, Taylor, N> {
+        let mut run = Run {
             statistics: self.statistics,
             accumulation: self.accumulation,
-            ..Run::at((&self.system, method), cursor, self.region, self.memory)
+            ..Run::at(&self.system, cursor, self.region)
         };
         run.cursor.level = Some(self.kept_level());
         // as of a run that is not observed, whose code there is
-        let ended = run.segment(&self.system, method, until, &mut ());
+        let moving = (method, &mut self.memory);
+        let ended = run.segment(&self.system, moving, until, &mut ());
         let ended = ended.and_then(|ended| {
             if let Ended::AtGuard { guard, rate } = ended {
-                run.next_mode((&self.system, method), guard, rate)?;
+                run.next_mode(&self.system, guard, rate)?;
                 self.active = run.cursor.active.clone();
             }
             Ok(ended)
         });
         (self.time, self.state) = (run.cursor.time, run.cursor.state);
-        (self.region, self.memory) = (run.region, run.memory);
+        self.region = run.region;
         (self.statistics, self.accumulation) = (run.statistics, run.accumulation);
         ended
     }
