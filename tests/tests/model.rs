@@ -316,3 +316,46 @@ fn members_of_an_ensemble_have_their_own_parameters_in_lanes_too() {
     }
     assert!(compared >= 10 * MEMBERS, "{compared}");
 }
+
+/// Counts the records of a run.
+struct Records {
+    every: u64,
+    count: u64,
+}
+
+impl AnyObserver for Records {
+    fn record(&mut self, _: &dmm_runtime::dynamic::Record<'_>) -> ControlFlow<()> {
+        self.count += 1;
+        ControlFlow::Continue(())
+    }
+
+    fn record_every(&self) -> u64 {
+        self.every
+    }
+}
+
+#[test]
+fn one_point_in_so_many_is_recorded_and_the_first_of_each_region() {
+    let decay = compiled_at_run_time("system Decay { state x; der(x) = -x; }");
+    let harmonic = registry::find("harmonic").unwrap();
+    for (problem, initial) in [(&decay, &[1.0][..]), (&harmonic, &[1.0, 1.0])] {
+        let run = Run {
+            step_size: 1e-2,
+            ..run(problem, MethodName::Symmetric, initial, 10.0)
+        };
+        let records = |every| {
+            let mut records = Records { every, count: 0 };
+            let finish = problem.integrate(&run, &mut records).unwrap();
+            (records.count, finish.statistics.transitions)
+        };
+        let (points, transitions) = records(1);
+        assert!(points > 1000, "{points}");
+        assert_eq!(records(0).0, 0);
+        let (some, _) = records(100);
+        let first = transitions + 1;
+        assert!(
+            some.abs_diff(points / 100 + first) <= first,
+            "{some} of {points}"
+        );
+    }
+}

@@ -126,6 +126,7 @@ impl<Sys: System<N>, const N: usize> MethodVisitor for Observed<'_, Sys, N> {
             mode: (None, AnyMode::default()),
             psi: Vec::new(),
             size: Vec::new(),
+            has_entered: true,
             level: Vec::new(),
         };
         let start = erased.start(&from.initial)?;
@@ -168,7 +169,9 @@ struct Forwarding<'a, Sys: System<N>, const N: usize> {
     mode: (Option<Sys::Region>, AnyMode),
     psi: Vec<f64>,
     size: Vec<f64>,
-    /// ψ on entry to the region; empty until then.
+    /// Whether nothing was recorded since the entry to the region.
+    has_entered: bool,
+    /// ψ on entry to the region.
     level: Vec<f64>,
 }
 
@@ -178,7 +181,7 @@ impl<Sys: System<N>, const N: usize> Forwarding<'_, Sys, N> {
         let (psi, size) = (&mut self.psi, &mut self.size);
         let system = &self.erased.system;
         system.visit(region, Conserved { time, x, psi, size });
-        if self.level.is_empty() {
+        if std::mem::take(&mut self.has_entered) {
             self.level.clone_from(&self.psi);
         }
         if self.mode.0 != Some(region) {
@@ -199,8 +202,7 @@ impl<Sys: System<N>, const N: usize> Forwarding<'_, Sys, N> {
 impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_, Sys, N> {
     fn point(&mut self, point: &Point<Sys::Region, N>) -> ControlFlow<()> {
         self.points += 1;
-        let is_first = self.level.is_empty();
-        if self.every > 0 && (is_first || self.points.is_multiple_of(self.every)) {
+        if self.every > 0 && (self.has_entered || self.points.is_multiple_of(self.every)) {
             self.record(point, false)
         } else {
             ControlFlow::Continue(())
@@ -208,7 +210,7 @@ impl<Sys: System<N>, const N: usize> Observer<Sys::Region, N> for Forwarding<'_,
     }
 
     fn transition(&mut self, transition: &Transition<Sys::Region, N>) -> ControlFlow<()> {
-        self.level.clear();
+        self.has_entered = true;
         self.size.clear();
         self.observer.transition(&Crossed {
             t: transition.t,

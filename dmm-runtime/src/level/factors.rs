@@ -94,6 +94,31 @@ impl<const N: usize, const M: usize, S: Masked> Factors<S, N, M> {
     }
 }
 
+impl<const N: usize, S: Masked> Weights<N, S> {
+    /// The displacement that takes the residual of `count` quantities off, and where Λ is steep beyond
+    /// a `bound`.
+    #[inline(always)]
+    pub(super) fn solved<const M: usize>(
+        &self,
+        (multiplier, count): (&Matrix<S, M, N>, usize),
+        residual: &Vector<S, M>,
+        bound: &Vector<S, M>,
+    ) -> (Vector<S, N>, S::Mask) {
+        let fast = Factors::new(self, (multiplier, count), bound);
+        let displacement = fast.displacement(residual);
+        if fast.independent.all() {
+            return (displacement, fast.steep);
+        }
+        let (slow, steep) = self.by_lane(multiplier, residual, bound, |projection, residual, _| {
+            projection.smallest(residual)
+        });
+        (
+            fast.independent.select_vector(&displacement, &slow),
+            fast.steep.or(fast.independent.not().and(steep)),
+        )
+    }
+}
+
 /// The lower half of ΛWΛᵀ from Λ and ΛW.
 #[inline(always)]
 fn products<S: Scalar, const N: usize, const M: usize>(

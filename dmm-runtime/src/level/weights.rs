@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use super::factors::Factors;
 use crate::arithmetic::MinimalNorm;
 use crate::arithmetic::linear::together;
 use crate::arithmetic::masked::{Mask, Masked, vector};
@@ -66,29 +65,6 @@ impl<const N: usize, S: Masked> Weights<N, S> {
     #[inline(always)]
     pub(super) fn times(&self, row: &Vector<S, N>) -> Vector<S, N> {
         vector(|i| row[i] * self.squares[i])
-    }
-
-    /// The displacement that takes the residual of `count` quantities off, and where Λ is steep beyond
-    /// a `bound`.
-    #[inline(always)]
-    pub(super) fn solved<const M: usize>(
-        &self,
-        (multiplier, count): (&Matrix<S, M, N>, usize),
-        residual: &Vector<S, M>,
-        bound: &Vector<S, M>,
-    ) -> (Vector<S, N>, S::Mask) {
-        let fast = Factors::new(self, (multiplier, count), bound);
-        let displacement = fast.displacement(residual);
-        if fast.independent.all() {
-            return (displacement, fast.steep);
-        }
-        let (slow, steep) = self.by_lane(multiplier, residual, bound, |projection, residual, _| {
-            projection.smallest(residual)
-        });
-        (
-            fast.independent.select_vector(&displacement, &slow),
-            fast.steep.or(fast.independent.not().and(steep)),
-        )
     }
 
     /// The displacement that takes a residual off by Λ with column i times wᵢ, as `value` has it, and
