@@ -32,7 +32,8 @@ fn bounce(e: f64, n: i32) -> f64 {
 #[test]
 fn a_ball_bounces_with_every_scheme() -> Result<(), Error> {
     let ball = Ball { e: 0.8 };
-    let end = bounce(0.8, 10);
+    // between two bounces: which of them are before the end is not for rounding errors to decide
+    let end = bounce(0.8, 10) - 0.01;
     // the flow is a polynomial of degree 2: every scheme has it exactly
     let times = [
         times(run(&ball, Best::tolerance(1e-12), [0.5, 0.0], end)?),
