@@ -89,15 +89,7 @@ fn load<const W: usize>(row: &[f64; W], at: usize) -> f64x4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arithmetic::error_free::HAS_FUSED;
-
-    fn fused(u: f64, v: f64, w: f64) -> f64 {
-        if HAS_FUSED {
-            u.mul_add(v, w)
-        } else {
-            u * v + w
-        }
-    }
+    use crate::arithmetic::Scalar;
 
     #[test]
     fn vectors_give_what_one_column_after_the_other_gives() {
@@ -105,7 +97,7 @@ mod tests {
         for rows in 0..8 {
             let numbers = |of: usize| (0..rows * W).map(move |i| ((of + i) as f64).sin());
             let [a, b]: [Vec<f64>; 2] = [1, 1000].map(|of| numbers(of).collect());
-            let sums: [f64; W] = products(0.0, fused, &a, &b);
+            let sums: [f64; W] = products(0.0, f64::fused, &a, &b);
             assert_eq!(sums, products_by_vectors::<W>(&a, &b));
             for (column, sum) in sums.into_iter().enumerate() {
                 let term = |j: usize| a[j * W + column] * b[(rows - 1 - j) * W + column];

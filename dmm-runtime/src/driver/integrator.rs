@@ -178,7 +178,7 @@ where
         let (x0, start) = self.start(t_end).map_err(Halted::at_start)?;
         let Integrator { system, method } = &self.integrator;
         let system = *system;
-        let mut memory = method.memory(self.t0, t_end);
+        let mut memory = self.memory(t_end);
         let mut run = Run::new(system, (self.t0, x0), start);
         while let Some(t) = observer.next_output()
             && t <= self.t0

@@ -97,7 +97,7 @@ impl<Sys: System<N>, Met: Method, const N: usize> InitialValueProblem<'_, Sys, M
         );
         Ok(Stepper {
             run: Run::new(&system, (self.t0, x0), start),
-            memory: method.memory(self.t0, t_end),
+            memory: self.memory(t_end),
             system,
             method,
             t_end,

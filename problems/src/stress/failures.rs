@@ -9,6 +9,7 @@ use dmm_runtime::{
 };
 
 use super::report::{Extent, Observe, Row, Verdict, kind_of};
+use super::setting::Setting;
 use super::systems::{blowup, logarithm, stuck, tangent};
 use crate::method::{MethodName, Run};
 use crate::problem::{AnyObserver, Record};
@@ -16,6 +17,12 @@ use crate::systems::Elliptic;
 use dmm_picture::Panel;
 
 const STEP_SIZE: f64 = 0.01;
+/// Of formulas.
+const SETTINGS: [Setting; 3] = [
+    Setting::tolerance("Taylor 1e-3", MethodName::Taylor, 1e-3),
+    Setting::tolerance("Taylor 1e-12", MethodName::Taylor, 1e-12),
+    Setting::steps("Symmetric", MethodName::Symmetric, STEP_SIZE),
+];
 /// When the injected failures begin.
 const FROM: f64 = 1.0;
 const T_END: f64 = 3.0;
@@ -40,11 +47,9 @@ pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
     if observer.begins("formulas").is_break() {
         return Vec::new();
     }
-    for tolerance in [1e-3, 1e-12] {
-        let name = format!("Taylor {tolerance:e}");
-        formulas(observer, &name, MethodName::Taylor, tolerance);
-    }
-    formulas(observer, "Symmetric", MethodName::Symmetric, f64::NAN);
+    SETTINGS
+        .iter()
+        .for_each(|setting| formulas(observer, setting));
     Vec::new()
 }
 
@@ -152,7 +157,7 @@ fn elliptic<Met: Method>(what: &str, expected: &str, method: Met) -> Row {
 }
 
 /// Formulas that have no value, and fields that do not say how to go on.
-fn formulas(observer: &mut dyn Observe, name: &str, method: MethodName, tolerance: f64) {
+fn formulas(observer: &mut dyn Observe, setting: &Setting) {
     for (what, expected, problem) in [
         ("blow-up at t = 1", "left the domain", blowup()),
         ("logarithm ends at t = 1", "left the domain", logarithm()),
@@ -160,18 +165,13 @@ fn formulas(observer: &mut dyn Observe, name: &str, method: MethodName, toleranc
         ("tangential at t = 1", "tangential", tangent()),
     ] {
         let run = Run {
-            method,
-            tolerance,
-            ..problem.default_run()
+            t_end: T_END,
+            ..setting.run(&problem)
         };
         let mut last = Last(f64::NAN);
         let error = problem.integrate(&run, &mut last).err();
-        observer.ended(judge(
-            what,
-            name,
-            expected,
-            error.map(|error| (last.0, error)),
-        ));
+        let ended = error.map(|error| (last.0, error));
+        observer.ended(judge(what, setting.name, expected, ended));
     }
 }
 

@@ -155,24 +155,24 @@ pub(super) fn warped() -> Problem {
     registry::of(WARPED, &Warped::default())
 }
 
-/// [`Blowup`], of which t = 1 is the end.
+/// [`Blowup`], which is infinite at t = 1.
 pub(super) fn blowup() -> Problem {
     registry::of(description("blowup", "blow-up", &[1.0]), &Blowup {})
 }
 
-/// [`Logarithm`], of which t = 1 is the end.
+/// [`Logarithm`], which ends at t = 1.
 pub(super) fn logarithm() -> Problem {
     let description = description("logarithm", "the end of a logarithm", &[1.0, 0.0]);
     registry::of(description, &Logarithm {})
 }
 
-/// [`Stuck`], at t = 1.
+/// [`Stuck`], from where it comes to the interface at t = 1.
 pub(super) fn stuck() -> Problem {
     let description = description("stuck", "two fields against each other", &[1.0, 1.0]);
     registry::of(description, &Stuck {})
 }
 
-/// [`Tangent`], at t = 1.
+/// [`Tangent`], from where it comes to the interface at t = 1.
 pub(super) fn tangent() -> Problem {
     let description = description("tangent", "a field along an interface", &[1.0, 1.0]);
     registry::of(description, &Tangent {})
