@@ -165,16 +165,19 @@ pub fn product_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], [v0, vk]: [S; 2
 /// Coefficient k of u² from the [`half_sums`] of u, and from u₀, uₖ and the one of order ⌊k/2⌋.
 #[inline(always)]
 pub fn square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
-    match k.get() {
-        0 => uk.squared(),
-        k => {
-            let sum = u0.fused(uk, sum);
-            if k.is_multiple_of(2) {
-                S::from_f64(2.0).fused(sum, middle.squared())
-            } else {
-                sum + sum
-            }
-        }
+    if k.get() == 0 {
+        return uk.squared();
+    }
+    twice(k, middle, u0.fused(uk, sum))
+}
+
+/// A sum of products uⱼ uₖ₋ⱼ from the terms with j < k/2 and the coefficient of order ⌊k/2⌋.
+#[inline(always)]
+fn twice<S: Scalar, K: Order>(k: K, middle: S, sum: S) -> S {
+    if k.get().is_multiple_of(2) {
+        S::from_f64(2.0).fused(sum, middle.squared())
+    } else {
+        sum + sum
     }
 }
 
@@ -182,37 +185,34 @@ pub fn square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: 
 #[inline(always)]
 pub fn half_square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
     let half = S::from_f64(0.5);
-    match k.get() {
-        0 => half * uk.squared(),
-        k => {
-            let sum = u0.fused(uk, sum);
-            if k.is_multiple_of(2) {
-                (middle * half).fused(middle, sum)
-            } else {
-                sum
-            }
-        }
+    if k.get() == 0 {
+        return half * uk.squared();
     }
+    let is_even = k.get().is_multiple_of(2);
+    u0.fused(
+        uk,
+        if is_even {
+            (middle * half).fused(middle, sum)
+        } else {
+            sum
+        },
+    )
 }
 
 /// Coefficient k of w = u/v from uₖ, vₖ, w₀ and the [`inner_sums`] of v and w; `inverse` is 1/v₀.
 #[inline(always)]
 pub fn quotient_from<S: Scalar, K: Order>(k: K, u: S, v: S, first: S, inverse: S, sum: S) -> S {
-    match k.get() {
-        0 => u * inverse,
-        _ => (-v).fused(first, u - sum) * inverse,
+    if k.get() == 0 {
+        return u * inverse;
     }
+    (-v).fused(first, u - sum) * inverse
 }
 
 /// Coefficient k ≥ 1 of w = √u from uₖ, the one of w of order ⌊k/2⌋ and the [`half_sums`] of w;
 /// `inverse` is 1/(2w₀).
 #[inline(always)]
 pub fn square_root_from<S: Scalar, K: Order>(k: K, u: S, middle: S, inverse: S, sum: S) -> S {
-    let mut sum = sum + sum;
-    if k.get().is_multiple_of(2) {
-        sum = middle.fused(middle, sum);
-    }
-    (u - sum) * inverse
+    (u - twice(k, middle, sum)) * inverse
 }
 
 /// Coefficient k ≥ 1 of ∫ v du from dₖ of d = h du/dh, v₀ and the [`inner_sums`] of d and v.
@@ -239,71 +239,19 @@ pub fn power_from<S: Scalar, K: Order>(
 /// not wait for them.
 #[inline(always)]
 pub fn product<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P], v: &[S; P]) -> S {
-    if !K::IS_FIXED {
-        return product_from(k, ends(k, u), ends(k, v), inner(k, u, v));
-    }
-    let k = k.get();
-    let mut sum = if k.is_multiple_of(2) {
-        u[k / 2] * v[k / 2]
-    } else {
-        let j = k / 2;
-        u[j].fused(v[j + 1], u[j + 1] * v[j])
-    };
-    for j in (0..k.div_ceil(2) - k % 2).rev() {
-        sum = u[j].fused(v[k - j], u[k - j].fused(v[j], in_parts(j, 4, sum)));
-    }
-    sum
+    product_from(k, ends(k, u), ends(k, v), inner(k, u, v))
 }
 
 /// Coefficient k of u².
 #[inline(always)]
 pub fn square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
-    if !K::IS_FIXED {
-        return square_from(k, ends(k, u), u[k.get() / 2], half(k, u));
-    }
-    let k = k.get();
-    if k == 0 {
-        return u[0].squared();
-    }
-    let mut sum = pairs(k, u);
-    if k.is_multiple_of(2) {
-        sum = S::from_f64(2.0).fused(sum, u[k / 2].squared());
-    } else {
-        sum += sum;
-    }
-    sum
-}
-
-/// Σ uⱼ uₖ₋ⱼ over j < k/2, for k ≥ 1; the newest coefficient enters last.
-#[inline(always)]
-fn pairs<S: Scalar, const P: usize>(k: usize, u: &[S; P]) -> S {
-    let last = (k - 1) / 2;
-    let mut sum = u[last] * u[k - last];
-    for j in (0..last).rev() {
-        sum = u[j].fused(u[k - j], sum);
-    }
-    sum
+    square_from(k, ends(k, u), u[k.get() / 2], half(k, u))
 }
 
 /// Coefficient k of u²/2.
 #[inline(always)]
 pub fn half_square<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
-    if !K::IS_FIXED {
-        return half_square_from(k, ends(k, u), u[k.get() / 2], half(k, u));
-    }
-    let k = k.get();
-    if k == 0 {
-        return S::from_f64(0.5) * u[0].squared();
-    }
-    let mut sum = if k.is_multiple_of(2) {
-        u[k / 2] * S::from_f64(0.5) * u[k / 2]
-    } else {
-        u[k / 2] * u[k / 2 + 1]
-    };
-    for j in (0..k.div_ceil(2) - k % 2).rev() {
-        sum = u[j].fused(u[k - j], in_parts(j, 8, sum));
-    }
-    sum
+    half_square_from(k, ends(k, u), u[k.get() / 2], half(k, u))
 }
 
 /// u₀ and uₖ
@@ -315,24 +263,41 @@ fn ends<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> [S; 2] {
 /// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k
 #[inline(always)]
 fn inner<S: Scalar, K: Order, const P: usize>(k: K, a: &[S; P], b: &[S; P]) -> S {
-    let k = k.get();
-    if !K::IS_FIXED {
-        let k = k.max(1);
-        return sums::single(&a[1..k], &b[1..k]);
+    if k.get() < 2 {
+        return S::from_f64(0.0);
     }
+    if !K::IS_FIXED {
+        return sums::single(&a[1..k.get()], &b[1..k.get()]);
+    }
+    let k = k.get();
+    // from the middle on, so that what was computed last enters last and the sum of the others need
+    // not wait for it
     let mut sum = S::from_f64(0.0);
-    for j in 1..k {
-        sum = a[j].fused(b[k - j], in_parts(j, 8, sum));
+    if k.is_multiple_of(2) {
+        sum = a[k / 2] * b[k / 2];
+    }
+    for j in (1..k.div_ceil(2)).rev() {
+        sum = a[j].fused(b[k - j], a[k - j].fused(b[j], in_parts(j, 4, sum)));
     }
     sum
 }
 
-/// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2
+/// Σ uⱼ uₖ₋ⱼ over 1 ≤ j < k/2; the newest coefficient enters last.
 #[inline(always)]
 fn half<S: Scalar, K: Order, const P: usize>(k: K, u: &[S; P]) -> S {
     let k = k.get().max(1);
     let last = (k - 1) / 2;
-    sums::single(&u[1..=last], &u[k - last..k])
+    if !K::IS_FIXED {
+        return sums::single(&u[1..=last], &u[k - last..k]);
+    }
+    if last == 0 {
+        return S::from_f64(0.0);
+    }
+    let mut sum = u[last] * u[k - last];
+    for j in (1..last).rev() {
+        sum = u[j].fused(u[k - j], in_parts(j, 8, sum));
+    }
+    sum
 }
 
 /// Coefficient k of w = u/v from uₖ; `inverse` is 1/v₀.
@@ -350,19 +315,7 @@ pub fn quotient<S: Scalar, K: Order, const P: usize>(
 /// Coefficient k ≥ 1 of w = √u from uₖ; `inverse` is 1/(2w₀).
 #[inline(always)]
 pub fn square_root<S: Scalar, K: Order, const P: usize>(k: K, u: S, w: &[S; P], inverse: S) -> S {
-    if !K::IS_FIXED {
-        return square_root_from(k, u, w[k.get() / 2], inverse, half(k, w));
-    }
-    let k = k.get();
-    let mut sum = S::from_f64(0.0);
-    for j in 1..k.div_ceil(2) {
-        sum = w[j].fused(w[k - j], sum);
-    }
-    sum += sum;
-    if k.is_multiple_of(2) {
-        sum = w[k / 2].fused(w[k / 2], sum);
-    }
-    (u - sum) * inverse
+    square_root_from(k, u, w[k.get() / 2], inverse, half(k, w))
 }
 
 /// Coefficient k ≥ 1 of w = u^a; `inverse` is 1/u₀.
@@ -375,12 +328,18 @@ pub fn power<S: Scalar, K: Order, const P: usize>(
     inverse_base: S,
 ) -> S {
     let k = k.get();
-    let mut sum = S::from_f64(0.0);
-    for j in 0..k {
+    let term = |sum: S, j: usize| {
         let weight = a * S::from_f64((k - j) as f64) - S::from_f64(j as f64);
-        sum = (weight * w[j]).fused(u[k - j], sum);
+        (weight * w[j]).fused(u[k - j], sum)
+    };
+    let mut sum = S::from_f64(0.0);
+    if k.is_multiple_of(2) {
+        sum = term(sum, k / 2);
     }
-    sum * (inverse_base * inverse(k))
+    for j in (1..k.div_ceil(2)).rev() {
+        sum = term(term(sum, j), k - j);
+    }
+    term(sum, 0) * (inverse_base * inverse(k))
 }
 
 /// Coefficient k ≥ 1 of ∫ v du from d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …
@@ -399,7 +358,7 @@ pub fn slope<S: Scalar, K: Order, const P: usize>(
     e: &[S; P],
     inverse: S,
 ) -> S {
-    (d - inner(k, e, v)) * inverse
+    (d - inner(k, v, e)) * inverse
 }
 
 /// Coefficient k ≥ 1 of w from e = h dw/dh.

@@ -6,7 +6,7 @@ use super::inputs::{at_point, over_step, solved};
 use super::lower::Lowered;
 use super::optimise::Optimiser;
 use super::results::{Derivative, Projected, Results, Rows};
-use super::series::{Series, with_powers};
+use super::series::{Series, for_series};
 use super::size::size;
 use crate::algebra::{Dag, Id, Name};
 use crate::scheme::{Explicit, RegionScheme, Scheme, Strategy};
@@ -40,7 +40,7 @@ impl Dynamics {
             over_step: over_step(&states),
             solved: solved(&scheme.regions[region].strategy),
         };
-        let field = with_powers(&mut lowered, &field);
+        let field = for_series(&mut lowered, &field);
         let functions = Functions::new(lowered, results, &variables, parameters);
         let series = Series::of_solution(&functions, &states, &field);
         Self { functions, series }

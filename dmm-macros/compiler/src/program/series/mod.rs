@@ -10,9 +10,9 @@
 //! order k of a root ẋᵢ = f is the coefficient k + 1 of xᵢ: that of f divided by k + 1.
 
 mod choice;
-mod powers;
 mod recurrence;
 mod scaled;
+mod shortest;
 mod slots;
 mod tables;
 
@@ -27,9 +27,9 @@ use super::function::Functions;
 use super::inputs::{Input, at_point, inputs};
 use super::lower::Lowered;
 use crate::algebra::{Id, Name};
-pub(super) use powers::with_powers;
 pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted, Sum};
 pub use scaled::{Factor, Later, Scaled};
+pub(super) use shortest::for_series;
 pub use tables::Tables;
 
 /// Straight-line code up to so many recurrences; a loop beyond, which compiles many times as fast. Time of a

@@ -1,5 +1,7 @@
-//! Quotients by powers that have roots in them, as products with powers: u/(v √v) is u v^(−3/2), whose
-//! recurrence takes the place of those of the root, of the product and of the quotient.
+//! Operations as their recurrences are shortest. A quotient by a power that has roots in it is a
+//! product with a power: u/(v √v) is u v^(−3/2), whose recurrence takes the place of those of the root,
+//! of the product and of the quotient. Factors that are constant in time are brought outside of
+//! products: u (c u) is c u², and a square has half the terms.
 
 use std::collections::HashMap;
 
@@ -9,8 +11,8 @@ use num_traits::One;
 use crate::algebra::{Function, Id, Math, Rational};
 use crate::program::Lowered;
 
-/// The roots with such quotients as products.
-pub(in crate::program) fn with_powers(lowered: &mut Lowered, roots: &[Id]) -> Vec<Id> {
+/// The roots with such quotients and products.
+pub(in crate::program) fn for_series(lowered: &mut Lowered, roots: &[Id]) -> Vec<Id> {
     let mut image: HashMap<Id, Id> = HashMap::new();
     for id in lowered.order(roots, |_| false) {
         let node = lowered.dag()[id]
@@ -20,11 +22,27 @@ pub(in crate::program) fn with_powers(lowered: &mut Lowered, roots: &[Id]) -> Ve
             (true, _) => id,
             (false, Math::Div([a, b])) => product_with_power(lowered, a, b)
                 .unwrap_or_else(|| lowered.insert(Math::Div([a, b]))),
+            (false, Math::Mul([a, b])) if !lowered.is_fixed(a) && !lowered.is_fixed(b) => {
+                product(lowered, a, b)
+            }
             (false, node) => lowered.insert(node),
         };
         image.insert(id, new);
     }
     roots.iter().map(|root| image[root]).collect()
+}
+
+/// ab, with factors that are constant in time outside.
+fn product(lowered: &mut Lowered, a: Id, b: Id) -> Id {
+    let [(outer, a), (inner, b)] = [a, b].map(|id| match lowered.dag()[id] {
+        Math::Mul([c, u]) | Math::Mul([u, c]) if lowered.is_fixed(c) => (Some(c), u),
+        _ => (None, id),
+    });
+    let product = lowered.insert(Math::Mul([a, b]));
+    let factors = [inner, outer].into_iter().flatten();
+    factors.fold(product, |product, c| {
+        lowered.insert(Math::Mul([c, product]))
+    })
 }
 
 /// a v^(−p), where b = v^p with p = 3/2, 5/2, …
@@ -81,7 +99,7 @@ mod tests {
     #[test]
     fn a_quotient_by_a_power_with_a_root_is_a_product() {
         let (mut lowered, [x, y], roots) = quotients();
-        let [product, quotient] = with_powers(&mut lowered, &roots)[..] else {
+        let [product, quotient] = for_series(&mut lowered, &roots)[..] else {
             panic!("two roots")
         };
         let Math::Mul([a, power]) = lowered.dag()[product] else {
@@ -95,5 +113,18 @@ mod tests {
         assert_eq!(exponent, Some(&Rational::new((-3).into(), 2.into())));
         // a root alone has a recurrence as short
         assert_eq!(quotient, roots[1]);
+    }
+
+    #[test]
+    fn a_factor_that_is_constant_in_time_is_outside_of_a_product() {
+        let mut lowered = Lowered::new(vec![Name::new("c")]);
+        let [c, x] = ["c", "x"].map(|name| lowered.insert(Math::Variable(Name::new(name))));
+        let multiple = lowered.insert(Math::Mul([c, x]));
+        let product = lowered.insert(Math::Mul([x, multiple]));
+        let [root] = for_series(&mut lowered, &[product])[..] else {
+            panic!("one root")
+        };
+        let square = lowered.insert(Math::Mul([x, x]));
+        assert_eq!(lowered.dag()[root], Math::Mul([c, square]));
     }
 }
