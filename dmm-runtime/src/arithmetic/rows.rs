@@ -29,17 +29,21 @@ pub(crate) fn products<S: Copy, const W: usize>(
 /// The same of doubles, by vectors: as many as stay in the registers of a processor.
 #[inline(always)]
 pub(crate) fn products_by_vectors<const W: usize>(a: &[f64], b: &[f64]) -> [f64; W] {
-    const MOST: usize = 4 * COLUMNS;
+    const MOST: usize = 8 * COLUMNS;
     let mut sums = [0.0; W];
     let mut at = 0;
     while W - at >= MOST {
-        vectors::<W, 4>(a, b, at, &mut sums);
+        vectors::<W, 8>(a, b, at, &mut sums);
         at += MOST;
     }
     match const { W % MOST / COLUMNS } {
         1 => vectors::<W, 1>(a, b, at, &mut sums),
         2 => vectors::<W, 2>(a, b, at, &mut sums),
         3 => vectors::<W, 3>(a, b, at, &mut sums),
+        4 => vectors::<W, 4>(a, b, at, &mut sums),
+        5 => vectors::<W, 5>(a, b, at, &mut sums),
+        6 => vectors::<W, 6>(a, b, at, &mut sums),
+        7 => vectors::<W, 7>(a, b, at, &mut sums),
         _ => {}
     }
     sums
@@ -69,9 +73,10 @@ fn for_rows<S, const W: usize>(a: &[S], b: &[S], mut each: impl FnMut(&[S; W], &
     let (a, b) = (a.as_chunks().0, b.as_chunks().0);
     if let ([first, middle @ ..], [.., last]) = (a, b) {
         if let ([middle @ .., last], [first, turned @ ..]) = (middle, b) {
-            let turned = &turned[..middle.len()];
-            for (a, b) in middle.iter().zip(turned.iter().rev()) {
-                each(a, b);
+            let rows = middle.len();
+            let turned = &turned[..rows];
+            for row in 0..rows {
+                each(&middle[row], &turned[rows - 1 - row]);
             }
             each(last, first);
         }
