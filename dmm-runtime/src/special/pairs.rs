@@ -63,7 +63,11 @@ const fn trailing(first: usize) -> [f64; (TERMS - PAIRS) / 2] {
 }
 
 impl Double {
-    /// Σ xᵏ/(first + 2k)!, over as many pairs and then doubles as there are.
+    /// Σ xᵏ/(first + 2k)! for |x| ≤ 1, over as many pairs and then doubles as there are.
+    ///
+    /// By Horner's scheme in doubles, whose rounding errors make a polynomial that is evaluated
+    /// beside it (Graillat, Langlois & Louvet, Compensated Horner scheme, 2005, algorithm 8): no sum
+    /// waits for another one to be put in order.
     fn every_other(first: usize, x: Self) -> Self {
         const EVEN: [f64; (TERMS - PAIRS) / 2] = trailing(0);
         const ODD: [f64; (TERMS - PAIRS) / 2] = trailing(1);
@@ -71,9 +75,13 @@ impl Double {
         let mut sum = Self::from(power_series(x.high, doubles));
         for k in (0..PAIRS / 2).rev() {
             let (high, low) = INVERSE_FACTORIALS[first + 2 * k];
-            sum = Self::new(high, low) + x * sum;
+            let product = Self::product(sum.high, x.high);
+            let cross = sum.high.fused(x.low, sum.low * x.high);
+            // the coefficient is at least twice as large as the product
+            let next = Self::fast_sum(high, product.high);
+            sum = Self::new(next.high, (product.low + cross) + (next.low + low));
         }
-        sum
+        Self::fast_sum(sum.high, sum.low)
     }
 
     /// cosh r and sinh r, for |r| ≤ 1
@@ -88,7 +96,11 @@ impl Double {
     /// cos u and sin u
     fn circular(self) -> (Self, Self) {
         let turns = (self.high * FRAC_2_PI).round();
-        let r = self - Self::from(turns) * Self::FRAC_PI_2;
+        let r = if turns == 0.0 {
+            self
+        } else {
+            self - Self::from(turns) * Self::FRAC_PI_2
+        };
         let square = -(r * r);
         let (c, s) = (
             Self::every_other(0, square),
