@@ -96,12 +96,19 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         let coarse = square * (weights.unit * S::from_f64(COARSE * COARSE));
         let left = (first * first).above(coarse).and(steep).and(used);
         let at = (time, reached, left);
+        // the squares of displacements, relative to the state
+        let share = inverse / weights.unit;
+        let firsts = first * first * share;
+        let coarse = S::from_f64(COARSE * COARSE * COARSE * COARSE);
+        let twice = S::from_f64(2.0) / first;
+        let mut bent = None;
         let (mut reached, left) =
             self.reached_alike(dynamics, &multiplier, at, |state, residual| {
                 let next = residual[0];
-                // the same slope again leaves the product with the first residual
-                let left = (first * next).abs().above(coarse);
-                (less(state, &gain, next), left)
+                let bent = *bent.get_or_insert_with(|| bend(twice, next));
+                // what that leaves is of third order
+                let left = (firsts * firsts * (next * next * share)).above(coarse);
+                (less(state, &gain, bent.fused(next, next)), left)
             });
         let rest = flat.or(left);
         if rest.any() {
@@ -119,7 +126,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         dynamics: &F,
         multiplier: &Matrix<S, M, N>,
         (time, mut reached, mut left): (Time<S>, State<N, S>, S::Mask),
-        corrected: impl Fn(State<N, S>, &Vector<S, M>) -> (State<N, S>, S::Mask),
+        mut corrected: impl FnMut(State<N, S>, &Vector<S, M>) -> (State<N, S>, S::Mask),
     ) -> (State<N, S>, S::Mask) {
         for _ in 0..MOST_ALIKE {
             if !left.any() {
@@ -168,6 +175,17 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         }
         state
     }
+}
+
+/// By how much of itself a residual is to be made larger before the first slope takes it off, where the
+/// displacement before left `next` of `first`: that residual is r − s + cs² at s = r, and has the
+/// slope 2 next/first − 1 there. Nothing where the curve is too steep for that.
+#[inline(always)]
+fn bend<S: Masked>(twice: S, next: S) -> S {
+    const LARGEST: f64 = 0.5;
+    let ratio = twice * next;
+    let is_small = S::from_f64(LARGEST).above(ratio.abs());
+    is_small.select(ratio, S::from_f64(0.0))
 }
 
 /// What `work` gives, for one lane by a function of its own; what is not inlined does not compute in
