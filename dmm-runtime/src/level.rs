@@ -28,7 +28,7 @@ use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::contract::{Dynamics, Matrix, Vector};
 
 use factors::Factors;
-pub(crate) use guard_point::{Found, GuardPoint};
+pub(crate) use guard_point::{Found, GuardPoint, OnGuard};
 use pairs::{MOST_IN_PAIRS, in_pairs, remainder, switching_in_pairs};
 pub(crate) use weights::Weights;
 

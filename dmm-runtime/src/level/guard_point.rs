@@ -19,6 +19,8 @@ use crate::contract::{Dynamics, Guards, Vector};
 const MOST_CORRECTIONS: u32 = 12;
 /// Iterations towards a crossing, of which some may halve its bracket.
 const MOST_HALVINGS: u32 = 100;
+/// Halley's method comes closer than [`SMALL`] by a correction smaller than this part of the step.
+const CLOSE: f64 = 1e-4;
 /// A correction of the time smaller than this part of the step is made along the field.
 const SMALL: f64 = 1e-8;
 
@@ -39,13 +41,21 @@ pub(crate) struct Found<S = f64> {
 /// A point of a solution, and g there.
 #[derive(Clone, Copy)]
 pub(crate) struct GuardPoint<const N: usize, S: Masked = f64> {
-    pub(crate) time: Time<S>,
+    time: Time<S>,
     pub(crate) state: State<N, S>,
     value: S,
     gradient: Vector<S, N>,
     /// f
     field: Vector<S, N>,
     /// dg/dt
+    rate: S,
+}
+
+/// A point on the guard, and dg/dt there.
+#[derive(Clone, Copy)]
+pub(crate) struct OnGuard<const N: usize, S: Masked = f64> {
+    pub(crate) time: Time<S>,
+    pub(crate) state: State<N, S>,
     pub(crate) rate: S,
 }
 
@@ -79,18 +89,22 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         (self.gradient, self.field) = (there.gradient, there.field);
     }
 
-    /// Moves the `used` lanes by `off` and along the field such that g = 0; returns the square of
-    /// the distance.
+    /// How far to move by `off` and along the field such that g = 0: in the state and in the time.
     #[inline(always)]
-    fn remove(&mut self, off: &Vector<S, N>, used: S::Mask) -> S {
+    fn displacement(&self, off: &Vector<S, N>) -> (Vector<S, N>, S) {
+        let delta = -(self.value + dot(&self.gradient, off)) / self.rate;
+        (vector(|i| off[i] + self.field[i] * delta), delta)
+    }
+
+    /// Moves the `used` lanes.
+    #[inline(always)]
+    fn shift(&mut self, (displacement, delta): (&Vector<S, N>, S), used: S::Mask) {
         // there is nothing to choose from
         let used = if S::LANES == 1 {
             S::Mask::all_are(true)
         } else {
             used
         };
-        let delta = -(self.value + dot(&self.gradient, off)) / self.rate;
-        let displacement: Vector<S, N> = vector(|i| off[i] + self.field[i] * delta);
         let mut state = self.state;
         for i in 0..N {
             state.remainder[i] += displacement[i];
@@ -99,7 +113,6 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         self.state = select(used, &state.normalised(), &self.state);
         self.time.value = used.select(time.value, self.time.value);
         self.time.remainder = used.select(time.remainder, self.time.remainder);
-        dot(&displacement, &displacement)
     }
 
     /// A point close to the one that is `found` in a step over `tau` from `start`, with the
@@ -113,29 +126,35 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         increment: impl Fn(S) -> Vector<S, N>,
         used: S::Mask,
     ) -> (Self, S::Mask) {
-        let small = S::from_f64(SMALL) * tau;
+        let close = S::from_f64(CLOSE) * tau;
         let mut elapsed = found.elapsed;
         let mut open = used;
         let n = S::from_f64;
         let (mut lower, mut upper) = found.bracket;
-        let mut iterations = 0;
-        loop {
-            let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
+        let after = |elapsed| (time.after(elapsed), state.after(&increment(elapsed)));
+        for _ in 0..MOST_HALVINGS {
+            let (time, state) = after(elapsed);
             let point = Self::at(dynamics, found.guard, time, state);
             let delta = point.correction(found, elapsed);
-            open = open.and(delta.abs().at_most(small).not());
-            iterations += 1;
-            if !open.any() || iterations == MOST_HALVINGS {
-                return (point, used.and(open.not()));
-            }
             let inside = (n(found.sign) * point.value).above(n(0.0));
             lower = open.and(inside).select(elapsed, lower);
             upper = open.and(inside.not()).select(elapsed, upper);
             let next = elapsed + delta;
             let within = lower.at_most(next).and(next.at_most(upper));
             let next = within.select(next, n(0.5) * (lower + upper));
+            let last = delta
+                .abs()
+                .at_most(close)
+                .and(within.or(upper.at_most(lower)));
             elapsed = open.select(next, elapsed);
+            open = open.and(last.not());
+            if !open.any() {
+                break;
+            }
         }
+        let (time, state) = after(elapsed);
+        let point = Self::at(dynamics, found.guard, time, state);
+        (point, used.and(open.not()))
     }
 
     /// The same for one lane by Halley's method alone, which mostly needs no bracket; nothing where it
@@ -148,17 +167,20 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         tau: S,
         increment: impl Fn(S) -> Vector<S, N>,
     ) -> Option<Self> {
-        let small = S::from_f64(SMALL) * tau;
         let mut elapsed = found.elapsed;
+        let mut is_close = false;
         for _ in 0..MOST_CORRECTIONS {
             let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
             let point = Self::at(dynamics, found.guard, time, state);
-            let delta = point.correction(found, elapsed);
-            if delta.abs().at_most(small).all() {
+            if is_close {
                 let (lower, upper) = found.bracket;
-                let inside = lower.at_most(elapsed).and(elapsed.at_most(upper));
+                let slack = S::from_f64(SMALL) * tau;
+                let inside = (lower - slack).at_most(elapsed);
+                let inside = inside.and(elapsed.at_most(upper + slack));
                 return inside.all().then_some(point);
             }
+            let delta = point.correction(found, elapsed);
+            is_close = delta.abs().at_most(S::from_f64(CLOSE) * tau).all();
             elapsed += delta;
         }
         None
@@ -192,15 +214,19 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         guard: usize,
         increment: &Vector<S, N>,
         (corrects, used): (bool, S::Mask),
-    ) -> (Self, S::Mask) {
+    ) -> (OnGuard<N, S>, S::Mask) {
         /// A displacement of this part of the state or of the step has an error of second order far
-        /// below a rounding error of doubles, and after one more of pairs.
+        /// below a rounding error of doubles.
         const SMALL: f64 = 1e-11;
+        /// One of this part has one that is below the rounding errors of pairs.
+        const SMALLEST: f64 = 1e-15;
         let n = S::from_f64;
         let none: Vector<S, N> = vector(|_| n(0.0));
         let x = self.state.x;
         let weights = Weights::new(&x, increment);
-        let small = n(SMALL * SMALL) * (dot(&x, &x) + dot(increment, increment));
+        let whole = dot(&x, &x) + dot(increment, increment);
+        let (small, smallest) = (n(SMALL * SMALL) * whole, n(SMALLEST * SMALLEST) * whole);
+        self.state = self.state.normalised();
         let mut before = n(f64::INFINITY);
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
@@ -209,15 +235,17 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             } else {
                 none
             };
-            let size = self.remove(&off, moves);
-            self.read(dynamics, guard);
+            let (displacement, delta) = self.displacement(&off);
+            let size = dot(&displacement, &displacement);
             // where g hardly changes, its rounding errors in doubles move the point further
             moves = moves
-                .and(size.above(small))
+                .and(size.above(smallest))
                 .and(before.above(n(4.0) * size));
             if !moves.any() {
                 break;
             }
+            self.shift((&displacement, delta), moves);
+            self.read(dynamics, guard);
             before = size;
         }
         let mut moves = used;
@@ -230,7 +258,9 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             } else {
                 none
             };
-            let size = self.remove(&off, moves);
+            let (displacement, delta) = self.displacement(&off);
+            self.shift((&displacement, delta), moves);
+            let size = dot(&displacement, &displacement);
             moves = moves.and(size.at_most(small).not());
             if !moves.any() {
                 break;
@@ -240,6 +270,9 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             self.rate = moves.select(self.rate, rate);
         }
         let located = used.and(moves.not()).and(is_finite(&self.state.x));
-        (self, located)
+        let Self {
+            time, state, rate, ..
+        } = self;
+        (OnGuard { time, state, rate }, located)
     }
 }

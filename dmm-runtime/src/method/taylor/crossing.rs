@@ -2,10 +2,9 @@
 
 use super::segment::{Here, Segment};
 use crate::arithmetic::linear::is_finite;
-use crate::arithmetic::{State, Time};
-use crate::contract::{Dynamics, Guards, Vector};
+use crate::contract::{Dynamics, Guards};
 use crate::expansion::jet::Jet;
-use crate::level::{Found, GuardPoint, Level};
+use crate::level::{Found, GuardPoint, Level, OnGuard};
 use crate::method::{Ended, Failure, Sink};
 use crate::series::Unroll;
 
@@ -20,23 +19,82 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         found: &Found,
         tau: f64,
     ) -> Result<Ended, Failure> {
-        let guard = found.guard;
-        let located = self
+        let start = (self.cursor.time, &self.cursor.state);
+        let increment = |elapsed| jet.increment(elapsed);
+        if let Some(near) = GuardPoint::nearest(dynamics, found, start, tau, increment) {
+            let increment = near.state.x - self.cursor.state.x;
+            let how = (self.corrects(dynamics, found), true);
+            let (there, is_there) = near.settled(dynamics, level, found.guard, &increment, how);
+            if is_there {
+                return Ok(self.arrive::<P, M, D, U>(dynamics, level, jet, (found, tau), there));
+            }
+        }
+        let there = self
             .locate::<P, M, D, U>(dynamics, level, jet, found, tau)
-            .or_else(|| self.about_condition::<P, M, D, U>(dynamics, jet, found));
-        let Some((time, state, rate)) = located else {
-            return Err(Failure::not_located(guard, tau));
-        };
-        let elapsed = time.since(self.cursor.time).clamp(0.0, tau);
-        let here = Here::of(self);
+            .or_else(|| self.about_condition::<P, M, D, U>(dynamics, jet, found))
+            .ok_or(Failure::not_located(found.guard, tau))?;
+        Ok(self.arrive::<P, M, D, U>(dynamics, level, jet, (found, tau), there))
+    }
+
+    /// Whether the level is corrected on the guard: beyond a condition ψ may have another value.
+    #[inline(always)]
+    fn corrects<const M: usize, D: Dynamics<f64, N, M>>(
+        &self,
+        dynamics: &D,
+        found: &Found,
+    ) -> bool {
+        self.method.corrects_level() && !dynamics.guards().is_condition(found.guard)
+    }
+
+    /// Ends the segment on the guard.
+    #[inline(always)]
+    fn arrive<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+        &mut self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        jet: &Jet<D, U, N, M, P>,
+        (found, tau): (&Found, f64),
+        OnGuard { time, state, rate }: OnGuard<N>,
+    ) -> Ended {
         if self.sink.next_output().is_some() {
+            let elapsed = time.since(self.cursor.time).clamp(0.0, tau);
+            let here = Here::of(self);
             self.outputs_along::<P, M, D, U>(dynamics, level, jet, &here, (elapsed, time));
         }
         self.cursor.state = state;
         self.cursor.time = time;
         self.sink.statistics().steps += 1;
         self.memory.step = tau;
-        Ok(Ended::AtGuard { guard, rate })
+        Ended::AtGuard {
+            guard: found.guard,
+            rate,
+        }
+    }
+
+    /// The point on the guard by its bracket, where Halley's method leaves it; without a correction
+    /// of the level where ψ has no gradient, at a root that is zero on the guard.
+    #[cold]
+    #[inline(never)]
+    fn locate<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+        &self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        jet: &Jet<D, U, N, M, P>,
+        found: &Found,
+        tau: f64,
+    ) -> Option<OnGuard<N>> {
+        let start = (self.cursor.time, &self.cursor.state);
+        let increment = |elapsed| jet.increment(elapsed);
+        let (near, located) = GuardPoint::near(dynamics, found, start, tau, increment, true);
+        let increment = near.state.x - self.cursor.state.x;
+        let settled = |corrects: bool| {
+            let how = (corrects, true);
+            let (there, settled) = near.settled(dynamics, level, found.guard, &increment, how);
+            settled.then_some(there)
+        };
+        let corrects = located && self.corrects(dynamics, found);
+        let corrected = corrects.then(|| settled(true)).flatten();
+        corrected.or_else(|| located.then(|| settled(false)).flatten())
     }
 
     /// About where the solution comes to the condition of a proof, on which f may have no value;
@@ -47,75 +105,14 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         dynamics: &D,
         jet: &Jet<D, U, N, M, P>,
         found: &Found,
-    ) -> Option<(Time, State<N>, f64)> {
+    ) -> Option<OnGuard<N>> {
         if !dynamics.guards().is_condition(found.guard) {
             return None;
         }
-        let state = self
-            .cursor
-            .state
-            .after(&jet.increment(found.elapsed))
-            .normalised();
+        let start = &self.cursor.state;
+        let state = start.after(&jet.increment(found.elapsed)).normalised();
         let time = self.cursor.time.after(found.elapsed);
-        is_finite(&state.x).then_some((time, state, f64::NAN))
-    }
-
-    /// t̂*, x̂* and dg/dt there.
-    #[inline(always)]
-    fn locate<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
-        &self,
-        dynamics: &D,
-        level: &Level<N, M>,
-        jet: &Jet<D, U, N, M, P>,
-        found: &Found,
-        tau: f64,
-    ) -> Option<(Time, State<N>, f64)> {
-        let start = (self.cursor.time, &self.cursor.state);
-        let increment = |elapsed| jet.increment(elapsed);
-        let near = match GuardPoint::nearest(dynamics, found, start, tau, increment) {
-            Some(near) => near,
-            None => self.in_bracket::<P, M, D, U>(dynamics, jet, found, tau)?,
-        };
-        // beyond a condition ψ may have another value
-        let corrects = self.method.corrects_level() && !dynamics.guards().is_condition(found.guard);
-        let increment = near.state.x - self.cursor.state.x;
-        let how = (corrects, true);
-        let (there, settled) = near.settled(dynamics, level, found.guard, &increment, how);
-        if settled {
-            return Some((there.time, there.state, there.rate));
-        }
-        corrects
-            .then(|| Self::settle_uncorrected(dynamics, level, found.guard, (&near, &increment)))?
-    }
-
-    /// Close to the crossing, within its bracket.
-    #[cold]
-    #[inline(never)]
-    fn in_bracket<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
-        &self,
-        dynamics: &D,
-        jet: &Jet<D, U, N, M, P>,
-        found: &Found,
-        tau: f64,
-    ) -> Option<GuardPoint<N>> {
-        let start = (self.cursor.time, &self.cursor.state);
-        let increment = |elapsed| jet.increment(elapsed);
-        let (near, located) = GuardPoint::near(dynamics, found, start, tau, increment, true);
-        located.then_some(near)
-    }
-
-    /// The same without a correction of the level, where ψ has no gradient: at a root that is zero
-    /// on the guard.
-    #[cold]
-    #[inline(never)]
-    fn settle_uncorrected<const M: usize, D: Dynamics<f64, N, M>>(
-        dynamics: &D,
-        level: &Level<N, M>,
-        guard: usize,
-        (near, increment): (&GuardPoint<N>, &Vector<f64, N>),
-    ) -> Option<(Time, State<N>, f64)> {
-        let how = (false, true);
-        let (there, settled) = near.settled(dynamics, level, guard, increment, how);
-        settled.then_some((there.time, there.state, there.rate))
+        let rate = f64::NAN;
+        is_finite(&state.x).then_some(OnGuard { time, state, rate })
     }
 }
