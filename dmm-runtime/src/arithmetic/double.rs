@@ -1,7 +1,7 @@
 //! Pairs of doubles.
 //!
 //! u = high + low with |low| ≤ ulp(high)/2: about 104 bits (Joldes, Muller & Popescu 2017, ACM
-//! Trans. Math. Softw. 44(2), algorithms 1, 2, 6 and 11; quotient and root by long division).
+//! Trans. Math. Softw. 44(2), algorithms 1, 2, 6, 11 and 17; root by long division).
 //! Levels of conserved quantities and the propagators of exact flows are such pairs, and so are
 //! the sums in a divided difference whose rounding errors are put back.
 
@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::Scalar;
-use super::error_free::two_sum;
+use super::error_free::{split_error, two_sum};
 use super::masked::Masked;
 
 /// What π/2 as a double lacks: the next 53 bits.
@@ -90,9 +90,12 @@ impl Double {
     /// π/2
     pub(crate) const FRAC_PI_2: Self = Self::new(FRAC_PI_2, FRAC_PI_2_LOW);
 
-    /// a/b
-    pub(crate) fn ratio(a: f64, b: f64) -> Self {
-        Self::from(a) / Self::from(b)
+    /// 1/n, where the product of n and the double next to 1/n is almost 1.
+    pub(crate) const fn inverse_of(n: f64) -> Self {
+        let high = 1.0 / n;
+        let product = high * n;
+        let remainder = (1.0 - product) - split_error(high, n, product);
+        Self::new(high, remainder / n)
     }
 
     /// self/other, rounded once but for terms of second order.
@@ -151,7 +154,8 @@ impl<S: Masked> Neg for Pair<S> {
 impl<S: Masked> Add for Pair<S> {
     type Output = Self;
 
-    #[inline]
+    // what is not inlined does not compute in lanes
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let high = Self::sum(self.high, other.high);
         let low = Self::sum(self.low, other.low);
@@ -172,7 +176,7 @@ impl<S: Masked> Sub for Pair<S> {
 impl<S: Masked> Mul for Pair<S> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         let cross = self.high.fused(other.low, self.low * other.high);
@@ -185,10 +189,10 @@ impl<S: Masked> Div for Pair<S> {
 
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
-        let remainder = self - other * Self::from(first);
-        let second = remainder.high / other.high;
-        let remainder = remainder - other * Self::from(second);
-        Self::fast_sum(first, second) + Self::from(remainder.high / other.high)
+        // first × other, whose high part is subtracted exactly
+        let product = other.scaled(first);
+        let rest = (self.high - product.high) + (self.low - product.low);
+        Self::fast_sum(first, rest / other.high)
     }
 }
 

@@ -92,7 +92,9 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
     /// How far to move by `off` and along the field such that g = 0: in the state and in the time.
     #[inline(always)]
     fn displacement(&self, off: &Vector<S, N>) -> (Vector<S, N>, S) {
-        let delta = -(self.value + dot(&self.gradient, off)) / self.rate;
+        // which does not wait for `off`
+        let inverse = S::from_f64(1.0) / self.rate;
+        let delta = -(self.value + dot(&self.gradient, off)) * inverse;
         (vector(|i| off[i] + self.field[i] * delta), delta)
     }
 
@@ -126,35 +128,32 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         increment: impl Fn(S) -> Vector<S, N>,
         used: S::Mask,
     ) -> (Self, S::Mask) {
-        let close = S::from_f64(CLOSE) * tau;
+        let n = S::from_f64;
+        let (close, small) = (n(CLOSE) * tau, n(SMALL) * tau);
         let mut elapsed = found.elapsed;
         let mut open = used;
-        let n = S::from_f64;
         let (mut lower, mut upper) = found.bracket;
-        let after = |elapsed| (time.after(elapsed), state.after(&increment(elapsed)));
-        for _ in 0..MOST_HALVINGS {
-            let (time, state) = after(elapsed);
+        let mut iterations = 0;
+        loop {
+            let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
             let point = Self::at(dynamics, found.guard, time, state);
+            if !open.any() || iterations == MOST_HALVINGS {
+                return (point, used.and(open.not()));
+            }
+            iterations += 1;
             let delta = point.correction(found, elapsed);
             let inside = (n(found.sign) * point.value).above(n(0.0));
             lower = open.and(inside).select(elapsed, lower);
             upper = open.and(inside.not()).select(elapsed, upper);
             let next = elapsed + delta;
             let within = lower.at_most(next).and(next.at_most(upper));
-            let next = within.select(next, n(0.5) * (lower + upper));
-            let last = delta
-                .abs()
-                .at_most(close)
-                .and(within.or(upper.at_most(lower)));
-            elapsed = open.select(next, elapsed);
-            open = open.and(last.not());
-            if !open.any() {
-                break;
-            }
+            // at an end of the bracket the root may be a rounding error outside
+            let is_there = delta.abs().at_most(small);
+            let other = is_there.select(elapsed, n(0.5) * (lower + upper));
+            elapsed = open.select(within.select(next, other), elapsed);
+            let is_last = is_there.or(within.and(delta.abs().at_most(close)));
+            open = open.and(is_last.not());
         }
-        let (time, state) = after(elapsed);
-        let point = Self::at(dynamics, found.guard, time, state);
-        (point, used.and(open.not()))
     }
 
     /// The same for one lane by Halley's method alone, which mostly needs no bracket; nothing where it

@@ -15,7 +15,6 @@ use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
 use super::series::power_series;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::double::{Double, Pair};
-use crate::arithmetic::error_free::split_error;
 use crate::arithmetic::masked::{Mask, Masked};
 
 /// What ln 2 as a double lacks: the next 53 bits.
@@ -33,23 +32,13 @@ const INVERSE_FACTORIALS: [(f64, f64); TERMS] = {
     let mut n = 1;
     while n < TERMS {
         factorial *= n as f64;
-        let high = 1.0 / factorial;
-        let low = if n < PAIRS {
-            remainder(high, factorial) / factorial
-        } else {
-            0.0
-        };
-        table[n] = (high, low);
+        let inverse = Double::inverse_of(factorial);
+        let low = if n < PAIRS { inverse.low } else { 0.0 };
+        table[n] = (inverse.high, low);
         n += 1;
     }
     table
 };
-
-/// 1 − a·b, where the product is almost 1: exact.
-const fn remainder(a: f64, b: f64) -> f64 {
-    let p = a * b;
-    (1.0 - p) - split_error(a, b, p)
-}
 
 /// Every other 1/n! of the doubles, the even ones from `first` = 0 on, the odd ones from 1 on.
 const fn trailing(first: usize) -> [f64; (TERMS - PAIRS) / 2] {

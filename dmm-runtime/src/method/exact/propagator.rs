@@ -17,7 +17,17 @@ use crate::contract::Vector;
 pub(crate) type Rows<T, const N: usize> = [[T; N]; N];
 
 /// Terms of the series.
-const MOST_TERMS: u32 = 40;
+const MOST_TERMS: usize = 40;
+/// 1/k, up to that of the last term of φ; k = 0 stands for none.
+const INVERSES: [Double; MOST_TERMS + 2] = {
+    let mut inverses = [Double::ONE; MOST_TERMS + 2];
+    let mut k = 1;
+    while k < inverses.len() {
+        inverses[k] = Double::inverse_of(k as f64);
+        k += 1;
+    }
+    inverses
+};
 /// Terms below this part of the sum are computed in doubles.
 const SMALL: f64 = 1e-17;
 /// The series ends where its terms are below this part of the sum.
@@ -51,11 +61,11 @@ impl<const N: usize> Propagator<N> {
             shifts: offset.iter().any(|&b| b != 0.0),
         };
         for k in 1..=MOST_TERMS {
-            let factor = Double::ratio(h, f64::from(k));
+            let factor = INVERSES[k].scaled(h);
             term = product(a, &term, factor);
             let mut largest = add(sum.matrix.as_flattened_mut(), term.as_flattened());
             if sum.shifts {
-                let factor = Double::ratio(h, f64::from(k + 1));
+                let factor = INVERSES[k + 1].scaled(h);
                 column = image(a, &column, factor);
                 largest = largest.max(add(&mut sum.offset, &column));
             }
@@ -71,7 +81,7 @@ impl<const N: usize> Propagator<N> {
         mut self,
         Coefficients { matrix: a, .. }: &Coefficients<N>,
         h: f64,
-        k: u32,
+        k: usize,
         (term, column): (&Rows<Double, N>, &[Double; N]),
     ) -> Option<Self> {
         let mut term = term.map(|row| row.map(|entry| entry.high));
@@ -79,7 +89,7 @@ impl<const N: usize> Propagator<N> {
         let (mut rest, mut shift) = ([[0.0; N]; N], [0.0; N]);
         for k in k + 1..=MOST_TERMS {
             let mut next = [[0.0; N]; N];
-            let factor = h / f64::from(k);
+            let factor = h / k as f64;
             let mut largest = 0.0f64;
             for ((next, rest), row) in next.iter_mut().zip(&mut rest).zip(a) {
                 for (&entry, other) in row.iter().zip(&term) {
@@ -94,7 +104,7 @@ impl<const N: usize> Propagator<N> {
             }
             term = next;
             if self.shifts {
-                let factor = h / f64::from(k + 1);
+                let factor = h / (k + 1) as f64;
                 let image = a.map(|row| {
                     let terms = row.iter().zip(&column);
                     terms.map(|(entry, other)| entry * other).sum::<f64>() * factor
