@@ -34,9 +34,8 @@ pub use tables::Tables;
 
 /// Straight-line code up to so many recurrences; a loop beyond, which compiles many times as fast. Time of a
 /// step by a loop over straight-line code, at tolerances of 10⁻⁴, 10⁻⁸ and 10⁻¹²: Hénon–Heiles (3
-/// recurrences) 1.69, 1.75, 1.65; pendulum 1.06, 0.98, 0.92; Toda ring of 3 masses 1.11, 0.93, 0.79;
-/// Pöschl–Teller (5) 1.11, 0.92, 0.96; Kepler (5) 1.20, 1.14, 1.02. Beyond, in numbers of before the sums of a
-/// loop ran together: chain of 8 masses (18) 0.82, 0.75; double pendulum (19) 0.75, 0.61.
+/// recurrences) 1.69, 1.75, 1.65; Toda ring of 3 masses 1.40, 1.26, 1.06; Pöschl–Teller (5) 1.29, 1.51, 1.21;
+/// Kepler (5) 1.28, 1.35, 1.30; double pendulum (19) 0.79, 0.59, 0.54; three bodies 0.89, 0.69, 0.61.
 const MOST_STRAIGHT: usize = 5;
 
 /// The recurrences of some roots.
