@@ -86,9 +86,7 @@ fn for_rows<S, const W: usize>(a: &[S], b: &[S], mut each: impl FnMut(&[S; W], &
 
 #[inline(always)]
 fn load<const W: usize>(row: &[f64; W], at: usize) -> f64x4 {
-    let mut vector = [0.0; COLUMNS];
-    vector.copy_from_slice(&row[at..at + COLUMNS]);
-    f64x4::from(vector)
+    f64x4::new(row[at..].first_chunk().copied().unwrap_or_default())
 }
 
 #[cfg(test)]
