@@ -186,9 +186,8 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             let square = dot(&row, &weighted);
             let steep = square.above(damping[0]);
             let damping = steep.select(S::from_f64(0.0), damping[0]);
-            // which does not wait for the residual
-            let inverse = S::from_f64(1.0) / (square + damping);
-            let factor = -(residual[0] * inverse);
+            // whose inverse may leave the range of doubles
+            let factor = -(residual[0] / (square + damping));
             return vector(|i| weighted[i] * factor);
         }
         let fast = Factors::new(weights, (multiplier, count), &damping);
