@@ -226,6 +226,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let whole = dot(&x, &x) + dot(increment, increment);
         let (small, smallest) = (n(SMALL * SMALL) * whole, n(SMALLEST * SMALLEST) * whole);
         self.state = self.state.normalised();
+        self.read(dynamics, guard);
         let mut before = n(f64::INFINITY);
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
