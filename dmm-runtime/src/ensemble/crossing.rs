@@ -23,11 +23,14 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         };
         let start = (self.register.time, &self.register.state);
         let increment = |elapsed| self.increment(elapsed);
-        let (near, located) = GuardPoint::near(self.dynamics, &found, start, tau, increment, used);
-        let increment = near.state.x - self.register.state.x;
+        let ((time, state), located) =
+            GuardPoint::near(self.dynamics, &found, start, tau, increment, used);
+        let increment = state.x - self.register.state.x;
         let how = (self.settings.corrects, located);
         let level = self.register.level();
-        let (there, crossed) = near.settled(self.dynamics, &level, interface, &increment, how);
+        let near = (time, &state);
+        let (there, crossed) =
+            GuardPoint::settled(near, self.dynamics, &level, interface, &increment, how);
         self.register.move_to(crossed, &(there.time, there.state));
         self.register.rate = there.rate;
         self.register.before = crossed.select(tau, self.register.before);

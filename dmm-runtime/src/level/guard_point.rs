@@ -127,7 +127,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         tau: S,
         increment: impl Fn(S) -> Vector<S, N>,
         used: S::Mask,
-    ) -> (Self, S::Mask) {
+    ) -> ((Time<S>, State<N, S>), S::Mask) {
         let n = S::from_f64;
         let (close, small) = (n(CLOSE) * tau, n(SMALL) * tau);
         let mut elapsed = found.elapsed;
@@ -136,10 +136,10 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let mut iterations = 0;
         loop {
             let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
-            let point = Self::at(dynamics, found.guard, time, state);
             if !open.any() || iterations == MOST_HALVINGS {
-                return (point, used.and(open.not()));
+                return ((time, state), used.and(open.not()));
             }
+            let point = Self::at(dynamics, found.guard, time, state);
             iterations += 1;
             let delta = point.correction(found, elapsed);
             let inside = (n(found.sign) * point.value).above(n(0.0));
@@ -165,19 +165,19 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         (time, state): (Time<S>, &State<N, S>),
         tau: S,
         increment: impl Fn(S) -> Vector<S, N>,
-    ) -> Option<Self> {
+    ) -> Option<(Time<S>, State<N, S>)> {
         let mut elapsed = found.elapsed;
         let mut is_close = false;
         for _ in 0..MOST_CORRECTIONS {
             let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
-            let point = Self::at(dynamics, found.guard, time, state);
             if is_close {
                 let (lower, upper) = found.bracket;
                 let slack = S::from_f64(SMALL) * tau;
                 let inside = (lower - slack).at_most(elapsed);
                 let inside = inside.and(elapsed.at_most(upper + slack));
-                return inside.all().then_some(point);
+                return inside.all().then_some((time, state));
             }
+            let point = Self::at(dynamics, found.guard, time, state);
             let delta = point.correction(found, elapsed);
             is_close = delta.abs().at_most(S::from_f64(CLOSE) * tau).all();
             elapsed += delta;
@@ -207,7 +207,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
     /// it is one.
     #[inline(always)]
     pub(crate) fn settled<const M: usize, D: Dynamics<S, N, M>>(
-        mut self,
+        (time, state): (Time<S>, &State<N, S>),
         dynamics: &D,
         level: &Level<N, M, S>,
         guard: usize,
@@ -221,21 +221,20 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         const SMALLEST: f64 = 1e-15;
         let n = S::from_f64;
         let none: Vector<S, N> = vector(|_| n(0.0));
-        let x = self.state.x;
+        let x = state.x;
         let weights = Weights::new(&x, increment);
         let whole = dot(&x, &x) + dot(increment, increment);
         let (small, smallest) = (n(SMALL * SMALL) * whole, n(SMALLEST * SMALLEST) * whole);
-        self.state = self.state.normalised();
-        self.read(dynamics, guard);
+        let mut point = Self::at(dynamics, guard, time, state.normalised());
         let mut before = n(f64::INFINITY);
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
             let off = if corrects {
-                level.correction(dynamics, self.time, &self.state, &weights)
+                level.correction(dynamics, point.time, &point.state, &weights)
             } else {
                 none
             };
-            let (displacement, delta) = self.displacement(&off);
+            let (displacement, delta) = point.displacement(&off);
             let size = dot(&displacement, &displacement);
             // where g hardly changes, its rounding errors in doubles move the point further
             moves = moves
@@ -244,35 +243,35 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             if !moves.any() {
                 break;
             }
-            self.shift((&displacement, delta), moves);
-            self.read(dynamics, guard);
+            point.shift((&displacement, delta), moves);
+            point.read(dynamics, guard);
             before = size;
         }
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
-            self.value = switching_in_pairs(dynamics, guard, self.time, &self.state);
+            point.value = switching_in_pairs(dynamics, guard, point.time, &point.state);
             let off = if corrects {
-                let (_, multiplier) = dynamics.multiplier(self.time.value, &self.state.x);
-                let residual = level.residual(dynamics, self.time, &self.state);
+                let (_, multiplier) = dynamics.multiplier(point.time.value, &point.state.x);
+                let residual = level.residual(dynamics, point.time, &point.state);
                 level.towards((&multiplier, dynamics.quantities()), &residual, &weights)
             } else {
                 none
             };
-            let (displacement, delta) = self.displacement(&off);
-            self.shift((&displacement, delta), moves);
+            let (displacement, delta) = point.displacement(&off);
+            point.shift((&displacement, delta), moves);
             let size = dot(&displacement, &displacement);
             moves = moves.and(size.at_most(small).not());
             if !moves.any() {
                 break;
             }
-            let rate = self.rate;
-            self.read(dynamics, guard);
-            self.rate = moves.select(self.rate, rate);
+            let rate = point.rate;
+            point.read(dynamics, guard);
+            point.rate = moves.select(point.rate, rate);
         }
-        let located = used.and(moves.not()).and(is_finite(&self.state.x));
+        let located = used.and(moves.not()).and(is_finite(&point.state.x));
         let Self {
             time, state, rate, ..
-        } = self;
+        } = point;
         (OnGuard { time, state, rate }, located)
     }
 }

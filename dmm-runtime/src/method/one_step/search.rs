@@ -183,9 +183,10 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
     ) -> Option<f64> {
         let time = self.cursor.time.after(located.elapsed);
         let state = self.cursor.state.after(&located.increment).normalised();
-        let near = GuardPoint::at(dynamics, guard, time, state);
+        let near = (time, &state);
         let how = (true, true);
-        let (there, settled) = near.settled(dynamics, level, guard, &located.increment, how);
+        let (there, settled) =
+            GuardPoint::settled(near, dynamics, level, guard, &located.increment, how);
         let is_later = there.time.since(self.cursor.time) >= 0.0;
         if !(settled && is_later && is_finite(&there.state.x)) {
             return None;

@@ -21,10 +21,12 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Result<Ended, Failure> {
         let start = (self.cursor.time, &self.cursor.state);
         let increment = |elapsed| jet.increment(elapsed);
-        if let Some(near) = GuardPoint::nearest(dynamics, found, start, tau, increment) {
-            let increment = near.state.x - self.cursor.state.x;
+        if let Some((time, state)) = GuardPoint::nearest(dynamics, found, start, tau, increment) {
+            let increment = state.x - self.cursor.state.x;
             let how = (self.corrects(dynamics, found), true);
-            let (there, is_there) = near.settled(dynamics, level, found.guard, &increment, how);
+            let near = (time, &state);
+            let (there, is_there) =
+                GuardPoint::settled(near, dynamics, level, found.guard, &increment, how);
             if is_there {
                 return Ok(self.arrive::<P, M, D, U>(dynamics, level, jet, (found, tau), there));
             }
@@ -85,11 +87,14 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Option<OnGuard<N>> {
         let start = (self.cursor.time, &self.cursor.state);
         let increment = |elapsed| jet.increment(elapsed);
-        let (near, located) = GuardPoint::near(dynamics, found, start, tau, increment, true);
-        let increment = near.state.x - self.cursor.state.x;
+        let ((time, state), located) =
+            GuardPoint::near(dynamics, found, start, tau, increment, true);
+        let increment = state.x - self.cursor.state.x;
         let settled = |corrects: bool| {
             let how = (corrects, true);
-            let (there, settled) = near.settled(dynamics, level, found.guard, &increment, how);
+            let near = (time, &state);
+            let (there, settled) =
+                GuardPoint::settled(near, dynamics, level, found.guard, &increment, how);
             settled.then_some(there)
         };
         let corrects = located && self.corrects(dynamics, found);
