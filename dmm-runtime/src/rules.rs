@@ -2,9 +2,9 @@
 //! that come back in every forum of the field, what is common elsewhere, what is done here, and the
 //! test that shows it.
 //!
-//! The tests are in `tests/tests` of the repository; `cargo test -p dmm-tests NAME` runs one. One rule
-//! holds for every method; a method that cannot keep one does not compile with it (a
-//! [`Locator`](crate::Locator) belongs to one-step methods alone, for example).
+//! The tests are in `tests/tests` and `tests/long` of the repository; `cargo test -p dmm-tests -p
+//! dmm-long-tests NAME` runs one. One rule holds for every method; a method that cannot keep one does
+//! not compile with it (a [`Locator`](crate::Locator) belongs to one-step methods alone, for example).
 //!
 //! # Crossings
 //!

@@ -28,8 +28,6 @@ const LONGEST: f64 = 100.0;
 const LARGEST_STEP: f64 = 1.0 / 16.0;
 /// The loosest tolerance; the others are a tenth of it, a hundredth, ….
 const LOOSEST: f64 = 1e-2;
-/// Runs of a step size last at most so long.
-const LONGEST_RUN: Duration = Duration::from_millis(200);
 /// A smaller final error is the rounding of the exact state.
 const ROUNDING: f64 = 1e-14;
 /// Shorter runs are repeated within a turn, and their mean counts.
@@ -119,7 +117,8 @@ impl Goal {
         })
     }
 
-    /// Measures `methods` in `rounds` rounds; what stops before its end is left out. `progress`
+    /// Measures `methods` in `rounds` rounds; what stops before its end is left out. The first run of
+    /// a method that takes more than `longest` is that of its last setting. `progress`
     /// is told the share of the work that is done, and says whether to go on: if not, what was
     /// timed until then is what was measured.
     pub fn measure(
@@ -127,6 +126,7 @@ impl Goal {
         problem: &Problem,
         methods: &[MethodName],
         rounds: u32,
+        longest: Duration,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Vec<Setting> {
         // a round takes as long as the first runs
@@ -138,7 +138,7 @@ impl Goal {
             if progress(first * done / total).is_break() {
                 return Vec::new();
             }
-            settings.extend(self.settings_of(problem, method));
+            settings.extend(self.settings_of(problem, method, longest));
             done += weight(method);
         }
         self.time(problem, &mut settings, rounds, &mut |share| {
@@ -188,7 +188,12 @@ impl Goal {
 
     /// The settings of a scheme, from the coarsest until the error is rounding or a run takes
     /// too long.
-    fn settings_of(&self, problem: &Problem, method: MethodName) -> Vec<Setting> {
+    fn settings_of(
+        &self,
+        problem: &Problem,
+        method: MethodName,
+        longest: Duration,
+    ) -> Vec<Setting> {
         let mut settings = Vec::new();
         let (mut control, factor, least) = match method.control() {
             Control::StepSize { .. } => (LARGEST_STEP, 0.5, 0.0),
@@ -203,7 +208,7 @@ impl Goal {
                 settings.push(self.setting(method, control, &finish, elapsed));
             }
             let exact = settings.last().is_some_and(|it| it.error < ROUNDING);
-            if elapsed > LONGEST_RUN || exact {
+            if elapsed > longest || exact {
                 break;
             }
             control *= factor;

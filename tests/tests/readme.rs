@@ -65,9 +65,9 @@ fn the_rules_name_tests_that_are_there() {
         .flat_map(|cell| cell.split('`').skip(1).step_by(2))
         .collect();
     assert!(names.len() > 30, "{names:?}");
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut tests = String::new();
-    let mut folders = vec![folder];
+    let mut folders = vec![root.join("tests"), root.join("long/tests")];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();

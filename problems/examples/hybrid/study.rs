@@ -1,6 +1,7 @@
-//! The campaign: run after run, the families in turn.
+//! The campaign: run after run, the families side by side.
 
 use std::collections::HashMap;
+use std::thread;
 
 use dmm_runtime::Model;
 
@@ -45,15 +46,16 @@ struct Structure {
 impl Campaign {
     /// Makes it, and prints the table.
     pub(crate) fn make(&self) -> Tally {
-        let mut tallies = vec![vec![Tally::default(); Scheme::ALL.len()]; FAMILIES.len()];
-        let mut known: HashMap<(usize, usize), Option<Structure>> = HashMap::new();
-        for index in self.only.map_or(0..self.runs, |only| only..only + 1) {
-            let (family, number) = (index % FAMILIES.len(), index / FAMILIES.len());
-            let place = (family, number % STRUCTURES);
-            let structure = known.entry(place).or_insert_with(|| self.structure(place));
-            let Some(structure) = structure else { continue };
-            self.run(index, structure, &mut tallies[family], number);
-        }
+        let tallies = thread::scope(|scope| {
+            let families = 0..FAMILIES.len();
+            let started = families.map(|family| scope.spawn(move || self.family(family)));
+            let started: Vec<_> = started.collect();
+            let ended = started.into_iter().map(|family| {
+                let tallies = family.join();
+                tallies.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            });
+            ended.collect::<Vec<_>>()
+        });
         println!("{}", Tally::head());
         let mut total = Tally::default();
         for (family, tallies) in FAMILIES.iter().zip(&tallies) {
@@ -64,6 +66,22 @@ impl Campaign {
         }
         println!("{}\n{}", total.row("all", "all"), total.kinds());
         total
+    }
+
+    /// The runs of a family, by scheme.
+    fn family(&self, family: usize) -> Vec<Tally> {
+        let mut tallies = vec![Tally::default(); Scheme::ALL.len()];
+        let mut known: HashMap<usize, Option<Structure>> = HashMap::new();
+        let all = self.only.map_or(0..self.runs, |only| only..only + 1);
+        for index in all.filter(|index| index % FAMILIES.len() == family) {
+            let number = index / FAMILIES.len();
+            let place = number % STRUCTURES;
+            let structure = known.entry(place);
+            let structure = structure.or_insert_with(|| self.structure((family, place)));
+            let Some(structure) = structure else { continue };
+            self.run(index, structure, &mut tallies, number);
+        }
+        tallies
     }
 
     /// A structure of a family; nothing if it does not compile.

@@ -1,7 +1,5 @@
 //! Several sliding interfaces at once, and sliding on curved ones.
 
-use dmm_runtime::{Integrator, Method, Point, Symmetric, Taylor, on_point, pws};
-
 use super::{Failure, assert_close, story, taylor};
 
 #[test]
@@ -83,46 +81,6 @@ fn four_fields_without_one_mean_are_refused() {
     let error = taylor(declaration, &[], &[0.5, 1.0, 0.0], 2.0).unwrap_err();
     let text = error.to_string();
     assert!(text.contains("`right`, `up` at once"), "{text}");
-}
-
-pws! {
-    /// A bead that is pressed onto a moving ellipse and driven along it.
-    pub system Bead {
-        state x, y;
-        interface ring = (x - 0.1*sin(t))^2 + 2*y^2 - 1, sliding;
-        region outside where ring > 0 { der(x) = -x - 2*y; der(y) = x - y; }
-        region inside where ring < 0 { der(x) = x - 2*y; der(y) = x + y; }
-    }
-}
-
-#[test]
-fn rounding_errors_of_a_hundred_thousand_sliding_steps_do_not_add_up() -> Result<(), Failure> {
-    /// The largest |g| on the ring by its terms, and how many steps end there.
-    fn look<Met: Method + 'static>(method: Met, t_end: f64) -> Result<(f64, u32), Failure> {
-        let (mut largest, mut steps) = (0.0_f64, 0);
-        let mut on_ring = on_point(|point: &Point<BeadRegion, 2>| {
-            if point.region == BeadRegion::SlidingRing {
-                let (x, y) = (point.x[0] - 0.1 * point.t.sin(), point.x[1]);
-                let size = x * x + 2.0 * x.abs() * point.x[0].abs() + 2.0 * y * y + 1.0;
-                let g = x * x + 2.0 * y * y - 1.0;
-                largest = largest.max(g.abs() / size);
-                steps += 1;
-            }
-        });
-        let run = Integrator::new(&Bead {}, method).initial(0.0, [1.5, 0.0]);
-        run.observe_until(t_end, &mut on_ring)?;
-        Ok((largest, steps))
-    }
-
-    let runs = [
-        look(Taylor::tolerance(1e-12), 60_000.0)?,
-        look(Symmetric::step_size(0.01), 1200.0)?,
-    ];
-    for (largest, steps) in runs {
-        assert!(steps > 100_000, "{steps}");
-        assert!(largest <= 4.0 * f64::EPSILON, "{largest:e}");
-    }
-    Ok(())
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `pws bench`
 
 use std::io::Write;
+use std::time::Duration;
 
 use dmm_picture::{Axis, Look, Panel, Picture, Scale, Stroke};
 use dmm_problems::method::{Control, MethodName};
@@ -15,6 +16,7 @@ use crate::input::{self, FormatOption};
 use crate::interrupt;
 use crate::output::{self, Csv, Table};
 use crate::progress::Progress;
+use crate::scheme;
 
 /// What to measure.
 #[derive(clap::Args)]
@@ -28,6 +30,12 @@ pub(crate) struct Arguments {
     /// How often each setting is timed.
     #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
+    /// The schemes that are measured, by comma [default: all].
+    #[arg(long, value_delimiter = ',', value_parser = scheme::names())]
+    scheme: Vec<String>,
+    /// A scheme is not measured with finer settings than the first that takes so many seconds.
+    #[arg(long, default_value_t = 0.2)]
+    longest: f64,
     #[command(flatten)]
     directory: DirectoryOptions,
     /// How the picture is stored.
@@ -57,12 +65,22 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let mut table = Table::new(2, header());
     let mut panels = Vec::new();
     let progress = Progress::new("");
-    let methods: Vec<MethodName> = MethodName::all().collect();
+    let longest = Duration::try_from_secs_f64(arguments.longest).map_err(|_| {
+        let seconds = output::number(arguments.longest);
+        Failure::Request(format!(
+            "longest run: {seconds} (must be a time in seconds)"
+        ))
+    })?;
+    let wanted = |method: &MethodName| {
+        let names = &arguments.scheme;
+        names.is_empty() || names.iter().any(|name| name == method.name())
+    };
+    let methods: Vec<MethodName> = MethodName::all().filter(wanted).collect();
     let mut outcome = Ok(());
     for (number, (problem, goal)) in problems.iter().zip(&goals).enumerate() {
         let count = problems.len() as f64;
         progress.tell(problem.description().name);
-        let settings = goal.measure(problem, &methods, arguments.rounds, &mut |share| {
+        let settings = goal.measure(problem, &methods, arguments.rounds, longest, &mut |share| {
             progress.at((number as f64 + share) / count)
         });
         write(&mut csv, problem, goal, &settings)?;
@@ -103,7 +121,12 @@ fn request(arguments: &Arguments, problems: &[Problem], goals: &[Goal]) -> Value
         directory::add(&mut request, end(goal));
         request
     });
-    json!({ "problems": each.collect::<Vec<_>>(), "rounds": arguments.rounds })
+    json!({
+        "problems": each.collect::<Vec<_>>(),
+        "rounds": arguments.rounds,
+        "schemes": arguments.scheme,
+        "longest": arguments.longest,
+    })
 }
 
 fn problems(arguments: &Arguments) -> Result<Vec<Problem>, Failure> {

@@ -40,7 +40,7 @@ struct ControlOptions {
 }
 
 /// The names of the schemes, with what they are.
-fn names() -> PossibleValuesParser {
+pub(crate) fn names() -> PossibleValuesParser {
     parser(MethodName::all())
 }
 

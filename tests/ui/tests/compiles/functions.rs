@@ -11,6 +11,12 @@ pws! {
     }
 }
 
-fn main() {
-    assert_eq!(Functions::default().of_region(FunctionsRegion::Everywhere).conserved, [""; 0]);
+#[test]
+fn compiles() {
+    assert_eq!(
+        Functions::default()
+            .of_region(FunctionsRegion::Everywhere)
+            .conserved,
+        [""; 0]
+    );
 }

@@ -1,5 +1,4 @@
 //! What the features `serde` and `ndarray` add.
-#![cfg(all(feature = "serde", feature = "ndarray"))]
 
 use dmm_runtime::{Best, Integrator, Statistics, pws};
 use serde_json::{from_value, json, to_value};

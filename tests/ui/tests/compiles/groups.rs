@@ -34,7 +34,8 @@ pws! {
     }
 }
 
-fn main() {
+#[test]
+fn compiles() {
     let chain = Chain {
         m: [1.0, 3.0, 1.0],
         ..Default::default()

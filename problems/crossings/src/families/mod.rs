@@ -29,8 +29,6 @@ pub(super) struct Scales {
 pub(super) trait Family<const N: usize>: System<N> + Default {
     /// What its switching function is.
     const TITLE: &'static str;
-    /// The order of the compositions that it is run with.
-    const ORDER: usize;
 
     /// A member, and where it starts.
     fn draw(random: &mut Random, scales: Scales) -> (Self, [f64; N]);

@@ -28,7 +28,6 @@ pws! {
 
 impl Family<2> for Wave {
     const TITLE: &'static str = "stripes";
-    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let m = random.decades(1.0, 600.0);
@@ -75,7 +74,6 @@ pws! {
 
 impl Family<2> for Clock {
     const TITLE: &'static str = "clock";
-    const ORDER: usize = 6;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let is_free = random.once_in(3);
@@ -140,7 +138,6 @@ pws! {
 
 impl Family<2> for Exponential {
     const TITLE: &'static str = "exponential";
-    const ORDER: usize = 4;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let size = random.decades(0.1, 30.0);
@@ -202,7 +199,6 @@ pws! {
 
 impl Family<2> for Logarithm {
     const TITLE: &'static str = "logarithm";
-    const ORDER: usize = 6;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let [x, v] = start(random, l);
@@ -266,7 +262,6 @@ pws! {
 
 impl Family<2> for Hyperbolic {
     const TITLE: &'static str = "hyperbolic";
-    const ORDER: usize = 4;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let system = Self {
@@ -328,7 +323,6 @@ pws! {
 
 impl Family<2> for Sheets {
     const TITLE: &'static str = "three sheets";
-    const ORDER: usize = 4;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let system = Self {

@@ -11,7 +11,7 @@
 //! | `affine` | a study of affine systems alone |
 //!
 //! ```sh
-//! cargo run --release -p dmm-problems --example crossings [-- crossings|affine] [--brief]
+//! cargo run --release -p dmm-crossings [-- crossings|affine] [--brief]
 //! ```
 //!
 //! ends with a failure if anything was wrong in silence.

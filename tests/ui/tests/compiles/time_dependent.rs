@@ -20,7 +20,8 @@ pws! {
     }
 }
 
-fn main() {
+#[test]
+fn compiles() {
     assert_eq!(Damped::default().metadata().parameters, ["m", "c", "k"]);
     assert_eq!(Decay::default().metadata().states, ["x"]);
 }

@@ -21,7 +21,8 @@ pws! {
     }
 }
 
-fn main() {
+#[test]
+fn compiles() {
     assert_eq!(First::default().metadata().name, "First");
     assert_eq!(Second::default().metadata().name, "Second");
 }

@@ -1,4 +1,6 @@
-//! The campaign: system after system of every family, by every scheme.
+//! The study of all families: system after system, by every scheme.
+
+use std::thread;
 
 use crate::families::{
     Bell, Bent, Clock, Exponential, Family, Flat, Hyperbolic, Logarithm, Plane, Polynomial,
@@ -23,42 +25,50 @@ const SHIFT: f64 = 1e-7;
 /// The reference goes farther than the runs, so that it knows of crossings just behind the end.
 const LEAD: f64 = 0.97;
 
-/// The study.
+/// The runs of a family, by setting.
+type Tallies = Vec<Tally>;
+/// Makes the runs of so many groups of systems.
+type Runs = fn(usize) -> Tallies;
+
+/// The study: the families side by side.
 pub(crate) fn study(extent: Extent, observer: &mut dyn Observe) {
     // of 14 families, of 4 systems each
     let groups = extent.of(500, 5);
-    let mut campaign = Campaign {
-        groups,
-        observer,
-        total: vec![Tally::default(); SETTINGS.len()],
-    };
-    campaign.family::<Polynomial, 2>();
-    campaign.family::<Rational, 2>();
-    campaign.family::<Root, 2>();
-    campaign.family::<Bent, 2>();
-    campaign.family::<Wave, 2>();
-    campaign.family::<Clock, 2>();
-    campaign.family::<Exponential, 2>();
-    campaign.family::<Logarithm, 2>();
-    campaign.family::<Hyperbolic, 2>();
-    campaign.family::<Flat, 2>();
-    campaign.family::<Bell, 2>();
-    campaign.family::<Sheets, 2>();
-    campaign.family::<Plane, 2>();
-    campaign.family::<Space, 3>();
+    let families: [(&str, Runs); 14] = [
+        family::<Polynomial, 2>(),
+        family::<Rational, 2>(),
+        family::<Root, 2>(),
+        family::<Bent, 2>(),
+        family::<Wave, 2>(),
+        family::<Clock, 2>(),
+        family::<Exponential, 2>(),
+        family::<Logarithm, 2>(),
+        family::<Hyperbolic, 2>(),
+        family::<Flat, 2>(),
+        family::<Bell, 2>(),
+        family::<Sheets, 2>(),
+        family::<Plane, 2>(),
+        family::<Space, 3>(),
+    ];
+    let mut total = vec![Tally::default(); SETTINGS.len()];
+    thread::scope(|scope| {
+        let started = families.map(|(title, run)| (title, scope.spawn(move || run(groups))));
+        for (title, family) in started {
+            let tallies = family
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            for ((setting, tally), total) in SETTINGS.iter().zip(&tallies).zip(&mut total) {
+                total.add(tally);
+                observer.ended(tally.row(title, setting.name));
+            }
+        }
+    });
     let mut all = Tally::default();
-    for (setting, tally) in SETTINGS.iter().zip(&campaign.total) {
+    for (setting, tally) in SETTINGS.iter().zip(&total) {
         all.add(tally);
-        campaign.observer.ended(tally.row("all", setting.name));
+        observer.ended(tally.row("all", setting.name));
     }
-    campaign.observer.ended(all.row("all", "all"));
-}
-
-/// The study while it goes on.
-struct Campaign<'a> {
-    groups: usize,
-    observer: &'a mut dyn Observe,
-    total: Vec<Tally>,
+    observer.ended(all.row("all", "all"));
 }
 
 /// A system with what is known of its solution.
@@ -128,36 +138,33 @@ impl<Sys: Family<N>, const N: usize> Case<Sys, N> {
     }
 }
 
-impl Campaign<'_> {
-    fn family<Sys: Family<N>, const N: usize>(&mut self) {
-        let mut tallies = vec![Tally::default(); SETTINGS.len()];
-        for group in 0..self.groups {
-            let mut random = Random::new(Sys::default().metadata().name, 0, group);
-            let mut scale = |size: f64| {
-                if random.once_in(3) {
-                    random.decades(1.0 / size, size)
-                } else {
-                    1.0
-                }
-            };
-            let scales = Scales {
-                l: scale(1e6),
-                s: scale(1e4),
-            };
-            let cases: Vec<Case<Sys, N>> = (0..GROUP)
-                .map(|_| Case::draw(&mut random, scales))
-                .collect();
-            one_by_one(&cases, group * GROUP, &mut tallies);
-            together(&cases, group, &mut tallies);
-        }
-        for ((setting, tally), total) in SETTINGS.iter().zip(&tallies).zip(&mut self.total) {
-            if !setting.is_for(Sys::ORDER) {
-                continue;
+/// A family with what makes its runs.
+fn family<Sys: Family<N>, const N: usize>() -> (&'static str, Runs) {
+    (Sys::TITLE, tallies::<Sys, N>)
+}
+
+fn tallies<Sys: Family<N>, const N: usize>(groups: usize) -> Tallies {
+    let mut tallies = vec![Tally::default(); SETTINGS.len()];
+    for group in 0..groups {
+        let mut random = Random::new(Sys::default().metadata().name, 0, group);
+        let mut scale = |size: f64| {
+            if random.once_in(3) {
+                random.decades(1.0 / size, size)
+            } else {
+                1.0
             }
-            total.add(tally);
-            self.observer.ended(tally.row(Sys::TITLE, setting.name));
-        }
+        };
+        let scales = Scales {
+            l: scale(1e6),
+            s: scale(1e4),
+        };
+        let cases: Vec<Case<Sys, N>> = (0..GROUP)
+            .map(|_| Case::draw(&mut random, scales))
+            .collect();
+        one_by_one(&cases, group * GROUP, &mut tallies);
+        together(&cases, group, &mut tallies);
     }
+    tallies
 }
 
 /// Runs each system with the settings whose turn it is.
@@ -168,7 +175,7 @@ fn one_by_one<Sys: Family<N>, const N: usize>(
 ) {
     for (case, index) in cases.iter().zip(first..) {
         let t_end = case.own_end();
-        for k in in_turn(Sys::ORDER, index) {
+        for k in in_turn(index) {
             let setting = &SETTINGS[k];
             let rate = case.problem.rate;
             let run = crate::schemes::run(setting, &case.system, rate, case.initial, t_end);

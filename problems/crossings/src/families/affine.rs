@@ -68,7 +68,6 @@ pws! {
 
 impl Family<2> for Plane {
     const TITLE: &'static str = "affine, plane";
-    const ORDER: usize = 4;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let [[a0, a1], [a2, a3]] = turning(random);
@@ -124,7 +123,6 @@ pws! {
 
 impl Family<3> for Space {
     const TITLE: &'static str = "affine, space";
-    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 3]) {
         let flat = |rows: [[f64; 3]; 3]| std::array::from_fn(|k| rows[k / 3][k % 3]);

@@ -15,7 +15,11 @@ pws! {
     }
 }
 
-fn main() {
-    let fall = Fall { G, ..Default::default() };
+#[test]
+fn compiles() {
+    let fall = Fall {
+        G,
+        ..Default::default()
+    };
     assert_eq!((fall.G, fall.None), (9.81, 2.0));
 }

@@ -26,7 +26,6 @@ pws! {
 
 impl Family<2> for Polynomial {
     const TITLE: &'static str = "polynomial";
-    const ORDER: usize = 4;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let mut c = random.array(1.0);
@@ -96,7 +95,6 @@ pws! {
 
 impl Family<2> for Rational {
     const TITLE: &'static str = "rational";
-    const ORDER: usize = 6;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let system = Self {
@@ -145,7 +143,6 @@ pws! {
 
 impl Family<2> for Root {
     const TITLE: &'static str = "square root";
-    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let r = random.decades(0.02, 1.5);
@@ -200,7 +197,6 @@ pws! {
 
 impl Family<2> for Bent {
     const TITLE: &'static str = "root with a sign";
-    const ORDER: usize = 6;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let system = Self {
@@ -262,7 +258,6 @@ pws! {
 
 impl Family<2> for Flat {
     const TITLE: &'static str = "nearly flat";
-    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let e = random.decades(1e-9, 1.0);
@@ -328,7 +323,6 @@ pws! {
 
 impl Family<2> for Bell {
     const TITLE: &'static str = "bell";
-    const ORDER: usize = 8;
 
     fn draw(random: &mut Random, Scales { l, s }: Scales) -> (Self, [f64; 2]) {
         let a = random.decades(0.5, 400.0);

@@ -16,7 +16,8 @@ pws! {
     }
 }
 
-fn main() {
+#[test]
+fn compiles() {
     let system = Pendulum::default();
     assert_eq!(system.w2, 1.0);
     let metadata = system.metadata();
@@ -25,5 +26,8 @@ fn main() {
     assert!(metadata.interfaces.is_empty());
     assert_eq!(metadata.regions.len(), 1);
     assert_eq!(system.region(0), Some(PendulumRegion::Everywhere));
-    assert_eq!(system.of_region(PendulumRegion::Everywhere).conserved, ["energy"]);
+    assert_eq!(
+        system.of_region(PendulumRegion::Everywhere).conserved,
+        ["energy"]
+    );
 }

@@ -88,21 +88,10 @@ const ALWAYS: usize = 2;
 const LANES: std::ops::Range<usize> = 2..4;
 const TURNS: usize = 3;
 
-impl Setting {
-    /// Whether a family of systems is run with it: each has compositions of one order, because
-    /// every order is compiled for every system.
-    pub(super) fn is_for(&self, order: usize) -> bool {
-        match self.kind {
-            Kind::Composed(own) | Kind::ComposedAdaptive(own) => own == order,
-            _ => true,
-        }
-    }
-}
-
 /// The settings that the system `index` of a family is run with one by one.
-pub(super) fn in_turn(order: usize, index: usize) -> impl Iterator<Item = usize> {
-    let others = (LANES.end..SETTINGS.len()).filter(move |k| SETTINGS[*k].is_for(order));
-    let first = index * TURNS % others.clone().count();
+pub(super) fn in_turn(index: usize) -> impl Iterator<Item = usize> {
+    let others = LANES.end..SETTINGS.len();
+    let first = index * TURNS % others.len();
     let turns = others.cycle().skip(first).take(TURNS);
     (0..ALWAYS).chain(turns)
 }
@@ -205,17 +194,17 @@ pub(super) fn run<Sys: Family<N>, const N: usize>(
         Kind::Best => by!(Best::tolerance(value)),
         Kind::Symmetric => by!(Symmetric::step_size(tau)),
         Kind::SymmetricAdaptive => by!(Symmetric::tolerance(value)),
-        // what is not of the family's order is not compiled
-        Kind::Composed(_) if const { Sys::ORDER == 4 } => by!(Composed::<4>::step_size(tau)),
-        Kind::Composed(_) if const { Sys::ORDER == 6 } => by!(Composed::<6>::step_size(tau)),
-        Kind::Composed(_) => by!(Composed::<8>::step_size(tau)),
-        Kind::ComposedAdaptive(_) if const { Sys::ORDER == 4 } => {
-            by!(Composed::<4>::tolerance(value))
-        }
-        Kind::ComposedAdaptive(_) if const { Sys::ORDER == 6 } => {
-            by!(Composed::<6>::tolerance(value))
-        }
-        Kind::ComposedAdaptive(_) => by!(Composed::<8>::tolerance(value)),
+        // one type for all orders, compiled once
+        Kind::Composed(order) => by!(match order {
+            4 => Composed::<4>::step_size(tau),
+            6 => Composed::<6>::step_size(tau),
+            _ => Composed::<8>::step_size(tau),
+        }),
+        Kind::ComposedAdaptive(order) => by!(match order {
+            4 => Composed::<4>::tolerance(value),
+            6 => Composed::<6>::tolerance(value),
+            _ => Composed::<8>::tolerance(value),
+        }),
     }
 }
 

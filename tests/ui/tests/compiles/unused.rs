@@ -28,8 +28,14 @@ mod silenced {
     }
 }
 
-fn main() {
+#[test]
+fn compiles() {
     assert_eq!(Meant { _k: 2.0 }, Meant { _k: 2.0 });
     assert_eq!(silenced::Silenced::default().k, 1.0);
-    assert!(silenced::Silenced::default().metadata().interfaces.is_empty());
+    assert!(
+        silenced::Silenced::default()
+            .metadata()
+            .interfaces
+            .is_empty()
+    );
 }

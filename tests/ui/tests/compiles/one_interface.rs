@@ -34,15 +34,22 @@ pws! {
     }
 }
 
-fn main() {
-    let system = Harmonic { k_above: 2.0, ..Default::default() };
+#[test]
+fn compiles() {
+    let system = Harmonic {
+        k_above: 2.0,
+        ..Default::default()
+    };
     assert_eq!((system.k_above, system.k_below), (2.0, 3.0));
     assert_eq!(system.parameters(), [2.0, 3.0]);
     assert_eq!(system.metadata().interfaces, ["spring"]);
     let regions: Vec<HarmonicRegion> = system.regions().collect();
     assert_eq!(regions, [HarmonicRegion::Above, HarmonicRegion::Below]);
     let [above, below] = [HarmonicRegion::Above, HarmonicRegion::Below];
-    for (region, side, other) in [(above, Side::Positive, below), (below, Side::Negative, above)] {
+    for (region, side, other) in [
+        (above, Side::Positive, below),
+        (below, Side::Negative, above),
+    ] {
         assert_eq!(system.of_region(region).sides, [Some(side)]);
         assert_eq!(system.side(region, 0), Some(side));
         assert_eq!(system.side(region, 1), None);

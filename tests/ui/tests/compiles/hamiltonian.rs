@@ -55,7 +55,8 @@ pws! {
     }
 }
 
-fn main() {
+#[test]
+fn compiles() {
     let chain = Chain::default();
     for region in chain.metadata().regions {
         assert_eq!(region.conserved, ["H"]);
@@ -90,7 +91,12 @@ fn main() {
     assert!((speed - 1.04).abs() < 1e-14);
     assert_eq!(end.x[4], 3.0);
 
-    assert_eq!(Driven::default().of_region(DrivenRegion::Everywhere).conserved, [""; 0]);
+    assert_eq!(
+        Driven::default()
+            .of_region(DrivenRegion::Everywhere)
+            .conserved,
+        [""; 0]
+    );
     let solution = Integrator::new(&Driven::default(), Symmetric::step_size(0.01))
         .initial(0.0, [0.5, 0.0])
         .run_until(1.0)

@@ -1,0 +1,1 @@
+//! Runs of hundreds of thousands of steps; see `tests/`.

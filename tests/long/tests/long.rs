@@ -1,0 +1,120 @@
+//! Rounding errors, transitions and accumulations of transitions over many steps.
+
+use dmm_runtime::{
+    Best, Composed, ErrorKind, Integrator, Method, Point, Symmetric, Taylor, on_point, pws,
+};
+
+type Failure = Box<dyn std::error::Error>;
+
+pws! {
+    /// A ball between four walls without friction.
+    pub system Walls {
+        state x, y, u, v;
+        discrete hits = 0;
+        interface left = x;
+        interface right = x - 1;
+        interface low = y;
+        interface high = y - 1;
+        der(x) = u;
+        der(y) = v;
+        der(u) = 0;
+        der(v) = 0;
+        conserved energy = (u^2 + v^2) / 2;
+        on left falling { u = -u; }
+        on right rising { u = -u; }
+        on low falling { v = -v; }
+        on high rising { v = -v; }
+    }
+}
+
+#[test]
+fn a_million_elastic_impacts_keep_the_energy() -> Result<(), Failure> {
+    let solution = Integrator::new(&Walls {}, Taylor::tolerance(1e-12))
+        .initial(0.0, [0.2, 0.3, 0.7, 1.1])
+        .observe_until(1e6 / 1.8, &mut ())?;
+    assert!(solution.statistics.transitions > 999_000);
+    let [_, _, u, v] = solution.point.x.into();
+    assert_eq!((u * u + v * v) / 2.0, (0.7 * 0.7 + 1.1 * 1.1) / 2.0);
+    Ok(())
+}
+
+pws! {
+    /// A bead that is pressed onto a moving ellipse and driven along it.
+    pub system Bead {
+        state x, y;
+        interface ring = (x - 0.1*sin(t))^2 + 2*y^2 - 1, sliding;
+        region outside where ring > 0 { der(x) = -x - 2*y; der(y) = x - y; }
+        region inside where ring < 0 { der(x) = x - 2*y; der(y) = x + y; }
+    }
+}
+
+#[test]
+fn rounding_errors_of_a_hundred_thousand_sliding_steps_do_not_add_up() -> Result<(), Failure> {
+    /// The largest |g| on the ring by its terms, and how many steps end there.
+    fn look<Met: Method + 'static>(method: Met, t_end: f64) -> Result<(f64, u32), Failure> {
+        let (mut largest, mut steps) = (0.0_f64, 0);
+        let mut on_ring = on_point(|point: &Point<BeadRegion, 2>| {
+            if point.region == BeadRegion::SlidingRing {
+                let (x, y) = (point.x[0] - 0.1 * point.t.sin(), point.x[1]);
+                let size = x * x + 2.0 * x.abs() * point.x[0].abs() + 2.0 * y * y + 1.0;
+                let g = x * x + 2.0 * y * y - 1.0;
+                largest = largest.max(g.abs() / size);
+                steps += 1;
+            }
+        });
+        let run = Integrator::new(&Bead {}, method).initial(0.0, [1.5, 0.0]);
+        run.observe_until(t_end, &mut on_ring)?;
+        Ok((largest, steps))
+    }
+
+    let runs = [
+        look(Taylor::tolerance(1e-12), 60_000.0)?,
+        look(Symmetric::step_size(0.01), 1200.0)?,
+    ];
+    for (largest, steps) in runs {
+        assert!(steps > 100_000, "{steps}");
+        assert!(largest <= 4.0 * f64::EPSILON, "{largest:e}");
+    }
+    Ok(())
+}
+
+pws! {
+    /// Fuller's problem: the switching curve x + c v|v| leads to the origin by ever shorter arcs.
+    pub system Fuller {
+        state x, v;
+        param c = 0.444_623_560_311_059;
+        interface curve = x + c*v*sqrt(v^2);
+        region right where curve > 0 { der(x) = v; der(v) = -1; }
+        region left where curve < 0 { der(x) = v; der(v) = 1; }
+    }
+}
+
+fn accumulates(scheme: impl Method) {
+    let halted = Integrator::new(&Fuller::default(), scheme)
+        .initial(0.0, [1.0, 0.0])
+        .observe_until(100.0, &mut ())
+        .unwrap_err();
+    let end = halted.end().unwrap();
+    // near the origin, where nothing is determined any more
+    assert!(end.point.x.norm() < 1e-5, "{end:?}");
+    assert!(end.statistics.transitions > 5, "{end:?}");
+    assert!(
+        matches!(
+            halted.error().kind,
+            ErrorKind::Zeno { .. }
+                | ErrorKind::Undecided { .. }
+                | ErrorKind::Sliding { .. }
+                | ErrorKind::Tangential { .. }
+                | ErrorKind::LocationFailed { .. }
+        ),
+        "{halted}"
+    );
+}
+
+#[test]
+fn an_accumulation_is_told() {
+    accumulates(Taylor::tolerance(1e-12));
+    accumulates(Best::tolerance(1e-12));
+    accumulates(Composed::<6>::tolerance(1e-9));
+    accumulates(Symmetric::step_size(1e-2));
+}
