@@ -55,6 +55,8 @@ fn senseless_values_are_refused() {
     refusal(&["converge", "harmonic", "--scheme", "taylor"]);
     assert!(refusal(&["bench", "elliptic", "--end", "-1"]).contains("must be positive"));
     refusal(&["bench", "elliptic", "--rounds", "0"]);
+    refusal(&["bench", "elliptic", "--scheme", "taylor,leapfrog"]);
+    assert!(refusal(&["bench", "elliptic", "--longest", "-1"]).contains("a time in seconds"));
     assert!(refusal(&["converge", "harmonic", "--after", "5000"]).contains("transitions"));
     refusal(&["converge", "harmonic", "--step=-1"]);
 }

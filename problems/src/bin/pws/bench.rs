@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_delimiter = ',', value_parser = scheme::names())]
     scheme: Vec<String>,
     /// A scheme is not measured with finer settings than the first that takes so many seconds.
-    #[arg(long, default_value_t = 0.2)]
+    #[arg(long, default_value_t = 0.2, allow_negative_numbers = true)]
     longest: f64,
     #[command(flatten)]
     directory: DirectoryOptions,
@@ -50,6 +50,17 @@ const COLUMNS: usize = 3;
 
 /// Measures, prints the table, writes CSV and picture.
 pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
+    let longest = Duration::try_from_secs_f64(arguments.longest).map_err(|_| {
+        let seconds = output::number(arguments.longest);
+        Failure::Request(format!(
+            "longest run: {seconds} (must be a time in seconds)"
+        ))
+    })?;
+    let wanted = |method: &MethodName| {
+        let names = &arguments.scheme;
+        names.is_empty() || names.iter().any(|name| name == method.name())
+    };
+    let methods: Vec<MethodName> = MethodName::all().filter(wanted).collect();
     let problems = problems(arguments)?;
     let goals = problems
         .iter()
@@ -65,17 +76,6 @@ pub(crate) fn bench(arguments: &Arguments) -> Result<(), Failure> {
     let mut table = Table::new(2, header());
     let mut panels = Vec::new();
     let progress = Progress::new("");
-    let longest = Duration::try_from_secs_f64(arguments.longest).map_err(|_| {
-        let seconds = output::number(arguments.longest);
-        Failure::Request(format!(
-            "longest run: {seconds} (must be a time in seconds)"
-        ))
-    })?;
-    let wanted = |method: &MethodName| {
-        let names = &arguments.scheme;
-        names.is_empty() || names.iter().any(|name| name == method.name())
-    };
-    let methods: Vec<MethodName> = MethodName::all().filter(wanted).collect();
     let mut outcome = Ok(());
     for (number, (problem, goal)) in problems.iter().zip(&goals).enumerate() {
         let count = problems.len() as f64;
