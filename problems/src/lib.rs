@@ -10,7 +10,8 @@
 //!   [`growth`]: orders and exponents of errors; the crate `dmm_picture`: their figures;
 //! - [`perturbed`]: the perturbed locator that Hirani, Wan & Wojtalewicz compare with; [`standard`]:
 //!   Runge–Kutta steps without detection of switches, which Nurkanović, Sperl, Albrecht & Diehl compare
-//!   with.
+//!   with;
+//! - [`random`] numbers and [`threads`] of studies.
 
 pub mod accurate;
 pub mod conservation;
@@ -26,5 +27,6 @@ pub mod registry;
 pub mod standard;
 pub mod stress;
 pub mod systems;
+pub mod threads;
 pub mod truth;
 pub mod work_precision;

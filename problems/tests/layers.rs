@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 17] = [
+const LAYERS: [&str; 18] = [
     "random",
+    "threads",
     "fit",
     "growth",
     "standard",

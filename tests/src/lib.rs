@@ -1,5 +1,7 @@
 //! Tests across the workspace; see `tests/`. What several of them do is here.
 
+pub mod systems;
+
 use dmm_runtime::{End, Halted, Integrator, Method, System};
 
 /// The end of a run from `initial` at t = 0.

@@ -1,22 +1,7 @@
 //! Runs that start again next to an interface, in the region that is named.
 
 use dmm_runtime::{Best, Composed, ErrorKind, Integrator, Method, Symmetric, System, Taylor, pws};
-
-pws! {
-    /// Affine on both sides.
-    pub system Springs {
-        state x, y;
-        interface spring = y;
-        region above where spring > 0 {
-            der(x) = y; der(y) = -x;
-            conserved energy = (y^2 + x^2)/2;
-        }
-        region below where spring < 0 {
-            der(x) = y; der(y) = -3*x;
-            conserved energy = (y^2 + 3*x^2)/2;
-        }
-    }
-}
+use dmm_tests::systems::{Springs, SpringsRegion};
 
 pws! {
     /// The same on a circle that the solution crosses.

@@ -4,6 +4,7 @@ use dmm_runtime::{
     Best, Composed, Ensemble, ErrorKind, Integrator, Member, Method, Reversed, Symmetric, System,
     Taylor, pws,
 };
+use dmm_tests::systems::Springs;
 
 pws! {
     /// A driven oscillator that stiffens beyond a line that moves.
@@ -17,22 +18,6 @@ pws! {
         region left where line < 0 {
             der(x) = y; der(y) = -k * x;
             conserved energy = (y^2 + k*x^2) / 2;
-        }
-    }
-}
-
-pws! {
-    /// Affine on both sides.
-    pub system Springs {
-        state x, y;
-        interface spring = y;
-        region above where spring > 0 {
-            der(x) = y; der(y) = -x;
-            conserved energy = (y^2 + x^2)/2;
-        }
-        region below where spring < 0 {
-            der(x) = y; der(y) = -3*x;
-            conserved energy = (y^2 + 3*x^2)/2;
         }
     }
 }

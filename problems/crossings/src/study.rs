@@ -1,7 +1,5 @@
 //! The study of all families: system after system, by every scheme.
 
-use std::thread;
-
 use crate::families::{
     Bell, Bent, Clock, Exponential, Family, Flat, Hyperbolic, Logarithm, Plane, Polynomial,
     Rational, Root, Scales, Sheets, Space, Wave,
@@ -11,8 +9,8 @@ use crate::reference::{Ending, Growth, Problem, Reference, accurate};
 use crate::schemes::{SETTINGS, in_turn, of_lanes};
 use crate::tally::Tally;
 use dmm_problems::random::Random;
-
 use dmm_problems::stress::{Extent, Observe};
+use dmm_problems::threads::side_by_side;
 
 /// Systems that are integrated together in lanes: of the same scales.
 const GROUP: usize = 4;
@@ -34,7 +32,7 @@ type Runs = fn(usize) -> Tallies;
 pub(crate) fn study(extent: Extent, observer: &mut dyn Observe) {
     // of 14 families, of 4 systems each
     let groups = extent.of(500, 5);
-    let families: [(&str, Runs); 14] = [
+    let families: [(&'static str, Runs); 14] = [
         family::<Polynomial, 2>(),
         family::<Rational, 2>(),
         family::<Root, 2>(),
@@ -51,16 +49,11 @@ pub(crate) fn study(extent: Extent, observer: &mut dyn Observe) {
         family::<Space, 3>(),
     ];
     let mut total = vec![Tally::default(); SETTINGS.len()];
-    thread::scope(|scope| {
-        let started = families.map(|(title, run)| (title, scope.spawn(move || run(groups))));
-        for (title, family) in started {
-            let tallies = family
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            for ((setting, tally), total) in SETTINGS.iter().zip(&tallies).zip(&mut total) {
-                total.add(tally);
-                observer.ended(tally.row(title, setting.name));
-            }
+    let run = |(title, runs): (&'static str, Runs)| (title, runs(groups));
+    side_by_side(families, run, |(title, tallies)| {
+        for ((setting, tally), total) in SETTINGS.iter().zip(&tallies).zip(&mut total) {
+            total.add(tally);
+            observer.ended(tally.row(title, setting.name));
         }
     });
     let mut all = Tally::default();

@@ -1,7 +1,6 @@
 //! The campaign: run after run, the families side by side.
 
 use std::collections::HashMap;
-use std::thread;
 
 use dmm_runtime::Model;
 
@@ -13,6 +12,7 @@ use crate::run::Scheme;
 use crate::tally::Tally;
 use crate::text::declaration;
 use dmm_problems::random::Random;
+use dmm_problems::threads::side_by_side;
 
 /// So many structures of a family.
 const STRUCTURES: usize = 16;
@@ -46,24 +46,15 @@ struct Structure {
 impl Campaign {
     /// Makes it, and prints the table.
     pub(crate) fn make(&self) -> Tally {
-        let tallies = thread::scope(|scope| {
-            let families = 0..FAMILIES.len();
-            let started = families.map(|family| scope.spawn(move || self.family(family)));
-            let started: Vec<_> = started.collect();
-            let ended = started.into_iter().map(|family| {
-                let tallies = family.join();
-                tallies.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-            });
-            ended.collect::<Vec<_>>()
-        });
         println!("{}", Tally::head());
         let mut total = Tally::default();
-        for (family, tallies) in FAMILIES.iter().zip(&tallies) {
-            for (scheme, tally) in Scheme::ALL.iter().zip(tallies) {
-                println!("{}", tally.row(family.name, scheme.name()));
+        let run = |family| (family, self.family(family));
+        side_by_side(0..FAMILIES.len(), run, |(family, tallies)| {
+            for (scheme, tally) in Scheme::ALL.iter().zip(&tallies) {
+                println!("{}", tally.row(FAMILIES[family].name, scheme.name()));
                 total.add(tally);
             }
-        }
+        });
         println!("{}\n{}", total.row("all", "all"), total.kinds());
         total
     }

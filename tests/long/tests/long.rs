@@ -3,49 +3,19 @@
 use dmm_runtime::{
     Best, Composed, ErrorKind, Integrator, Method, Point, Symmetric, Taylor, on_point, pws,
 };
+use dmm_tests::run;
+use dmm_tests::systems::{Bead, BeadRegion, Walls};
 
 type Failure = Box<dyn std::error::Error>;
 
-pws! {
-    /// A ball between four walls without friction.
-    pub system Walls {
-        state x, y, u, v;
-        discrete hits = 0;
-        interface left = x;
-        interface right = x - 1;
-        interface low = y;
-        interface high = y - 1;
-        der(x) = u;
-        der(y) = v;
-        der(u) = 0;
-        der(v) = 0;
-        conserved energy = (u^2 + v^2) / 2;
-        on left falling { u = -u; }
-        on right rising { u = -u; }
-        on low falling { v = -v; }
-        on high rising { v = -v; }
-    }
-}
-
 #[test]
 fn a_million_elastic_impacts_keep_the_energy() -> Result<(), Failure> {
-    let solution = Integrator::new(&Walls {}, Taylor::tolerance(1e-12))
-        .initial(0.0, [0.2, 0.3, 0.7, 1.1])
-        .observe_until(1e6 / 1.8, &mut ())?;
+    let x0 = [0.2, 0.3, 0.7, 1.1];
+    let solution = run(&Walls {}, Taylor::tolerance(1e-12), x0, 1e6 / 1.8)?;
     assert!(solution.statistics.transitions > 999_000);
     let [_, _, u, v] = solution.point.x.into();
     assert_eq!((u * u + v * v) / 2.0, (0.7 * 0.7 + 1.1 * 1.1) / 2.0);
     Ok(())
-}
-
-pws! {
-    /// A bead that is pressed onto a moving ellipse and driven along it.
-    pub system Bead {
-        state x, y;
-        interface ring = (x - 0.1*sin(t))^2 + 2*y^2 - 1, sliding;
-        region outside where ring > 0 { der(x) = -x - 2*y; der(y) = x - y; }
-        region inside where ring < 0 { der(x) = x - 2*y; der(y) = x + y; }
-    }
 }
 
 #[test]
@@ -90,10 +60,7 @@ pws! {
 }
 
 fn accumulates(scheme: impl Method) {
-    let halted = Integrator::new(&Fuller::default(), scheme)
-        .initial(0.0, [1.0, 0.0])
-        .observe_until(100.0, &mut ())
-        .unwrap_err();
+    let halted = run(&Fuller::default(), scheme, [1.0, 0.0], 100.0).unwrap_err();
     let end = halted.end().unwrap();
     // near the origin, where nothing is determined any more
     assert!(end.point.x.norm() < 1e-5, "{end:?}");

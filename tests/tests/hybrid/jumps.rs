@@ -4,6 +4,7 @@ use dmm_runtime::{
     Best, Composed, Error, ErrorKind, Integrator, Mode, Side, Symmetric, Taylor, TransitionKind,
     pws,
 };
+use dmm_tests::systems::Walls;
 
 use super::{Failure, best, run, same_at_run_time, times};
 
@@ -85,27 +86,6 @@ fn bounces_that_accumulate_end_as_an_error() {
     let t = error.place().map(|place| place.t);
     let accumulates = matches!(error.kind, ErrorKind::Zeno { .. });
     assert!(accumulates && t == Some(3.0), "{error}");
-}
-
-pws! {
-    /// A ball between four walls without friction.
-    pub system Walls {
-        state x, y, u, v;
-        discrete hits = 0;
-        interface left = x;
-        interface right = x - 1;
-        interface low = y;
-        interface high = y - 1;
-        der(x) = u;
-        der(y) = v;
-        der(u) = 0;
-        der(v) = 0;
-        conserved energy = (u^2 + v^2) / 2;
-        on left falling { u = -u; }
-        on right rising { u = -u; }
-        on low falling { v = -v; }
-        on high rising { v = -v; }
-    }
 }
 
 #[test]

@@ -8,18 +8,9 @@ use std::ops::ControlFlow;
 
 use dmm_problems::fit::fitted_order;
 use dmm_runtime::{Integrator, Observer, Point, RungeKutta, System, Taylor, Vector, pws};
+use dmm_tests::systems::Bead;
 
 use super::Failure;
-
-pws! {
-    /// A bead that is pressed onto a moving ellipse and driven along it.
-    pub system Bead {
-        state x, y;
-        interface ring = (x - 0.1*sin(t))^2 + 2*y^2 - 1, sliding;
-        region outside where ring > 0 { der(x) = -x - 2*y; der(y) = x - y; }
-        region inside where ring < 0 { der(x) = x - 2*y; der(y) = x + y; }
-    }
-}
 
 pws! {
     /// A point that two switches lead to two curved surfaces, and that moves along both.
