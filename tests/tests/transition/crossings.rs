@@ -1,7 +1,7 @@
 //! What is a transition, and where it is.
 
 use dmm_problems::perturbed::Perturbed;
-use dmm_runtime::{Integrator, Symmetric};
+use dmm_runtime::{Composed, Integrator, Symmetric, pws};
 
 use super::{Drift, DriftRegion, Moving, Parabola, ParabolaRegion, Turning, start};
 
@@ -164,5 +164,40 @@ fn the_locator_can_be_replaced() {
         assert!((t - 1.125 - delay).abs() < 1e-15);
         let exact = -delay - 2.0 * (2.0 - t);
         assert!((solution.last().unwrap().x[0] - exact).abs() < 1e-14);
+    }
+}
+
+pws! {
+    /// An oscillator that passes three interfaces close to each other.
+    system Sheets {
+        state x, v;
+        param b = 0, gap = 1e-4;
+        interface sheets = (x - b) * (x - b - gap) * (x - b + gap);
+        der(x) = v;
+        der(v) = -x;
+        region low where sheets < 0 {}
+        region high where sheets > 0 {}
+    }
+}
+
+#[test]
+fn the_first_of_three_zeros_is_taken_where_the_dense_output_is_off() {
+    // x = sin t, from t = −1.2; the dense output of a step of 0.1 is off by up to 10⁻⁶
+    for i in 0..400 {
+        let b = -0.7 + 1.4 * f64::from(i) / 400.0;
+        let system = Sheets {
+            b,
+            ..Sheets::default()
+        };
+        let solution = Integrator::new(&system, Composed::<8>::step_size(0.1))
+            .initial(-1.2, [(-1.2f64).sin(), 1.2f64.cos()])
+            .run_until(1.2)
+            .unwrap();
+        let times = solution.transitions().iter().map(|transition| transition.t);
+        let expected = [b - system.gap, b, b + system.gap].map(f64::asin);
+        assert_eq!(times.len(), 3, "{b}");
+        for (t, expected) in times.zip(expected) {
+            assert!((t - expected).abs() < 1e-8, "{b}: {t} {expected}");
+        }
     }
 }

@@ -8,6 +8,7 @@
 use super::map::{OneStep, Step};
 use crate::arithmetic::State;
 use crate::contract::{Dynamics, Guards, Vector};
+use crate::events::cubic::Reading;
 use crate::method::Statistics;
 use crate::method::StepFailure;
 
@@ -78,6 +79,9 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
     where
         F: Dynamics<f64, N, M>,
     {
+        if elapsed == 0.0 {
+            return Ok(Vector::zeros());
+        }
         self.map.step(&self.part(elapsed), statistics)
     }
 
@@ -103,6 +107,24 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
         )
     }
 
+    /// g (positive in the mode that is left) and dg/dt along the one-step map; nothing if the step
+    /// cannot be made, or g is not finite.
+    pub(crate) fn reading<const M: usize>(
+        &self,
+        elapsed: f64,
+        statistics: &mut Statistics,
+    ) -> Option<Reading>
+    where
+        F: Dynamics<f64, N, M>,
+    {
+        let increment = self.increment::<M>(elapsed, statistics).ok()?;
+        let (value, by_time, gradient) = self.switching(elapsed, &increment);
+        let x = self.state.x + increment;
+        let field = self.dynamics.vector_field(self.t0 + elapsed, &x);
+        let rate = by_time + gradient.dot(&field);
+        value.is_finite().then_some(Reading { value, rate })
+    }
+
     /// Widens the bracket, which is one of the dense output of a step over `tau`, until g ≥ 0 at
     /// its lower end and g ≤ 0 at its upper end on the one-step map, which is close to it: false if
     /// g returns before, nothing if it has no finite value. A step on an active guard starts at a root that
@@ -120,21 +142,30 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
         const NARROW: f64 = 1e-12;
         /// Halvings of the step in search of the inside.
         const MOST_HALVINGS: u32 = 60;
-        let narrow = (self.upper - self.lower).max(NARROW * tau);
-        let mut width = narrow;
+        let widening = Widening {
+            least: NARROW * tau,
+            most: (self.upper - self.lower).max(NARROW * tau),
+        };
         // the dense output ends where the map does
         let ends = self.upper >= tau;
-        while self.upper < tau && value_at(self, self.upper, statistics)?.0 > 0.0 {
-            self.upper = (self.upper + width).min(tau);
-            width *= 4.0;
+        let mut later = widening;
+        while self.upper < tau {
+            let reading = self.reading(self.upper, statistics)?;
+            if reading.value <= 0.0 {
+                break;
+            }
+            self.upper = (self.upper + later.next(reading)).min(tau);
         }
-        if !ends && self.upper >= tau && value_at(self, tau, statistics)?.0 > 0.0 {
+        if !ends && self.upper >= tau && self.reading(tau, statistics)?.value > 0.0 {
             return Some(false);
         }
-        width = narrow;
-        while self.lower > 0.0 && value_at(self, self.lower, statistics)?.0 <= 0.0 {
-            self.lower = (self.lower - width).max(0.0);
-            width *= 4.0;
+        let mut earlier = widening;
+        while self.lower > 0.0 {
+            let reading = self.reading(self.lower, statistics)?;
+            if reading.value > 0.0 {
+                break;
+            }
+            self.lower = (self.lower - earlier.next(reading)).max(0.0);
         }
         if self.lower > 0.0 || !is_active {
             return Some(true);
@@ -142,7 +173,7 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
         let mut middle = self.upper;
         for _ in 0..MOST_HALVINGS {
             middle *= 0.5;
-            if value_at(self, middle, statistics)?.0 > 0.0 {
+            if self.reading(middle, statistics)?.value > 0.0 {
                 self.lower = middle;
                 return Some(true);
             }
@@ -150,6 +181,27 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
         }
         // an excursion that no point resolves
         None
+    }
+}
+
+/// How far an end of a bracket is moved, from one attempt to the next.
+#[derive(Clone, Copy)]
+struct Widening {
+    least: f64,
+    most: f64,
+}
+
+impl Widening {
+    /// Twice as far as where g falls it has its zero along the tangent, so that the next zero but
+    /// one is not taken for it.
+    fn next(&mut self, Reading { value, rate }: Reading) -> f64 {
+        let width = if rate < 0.0 {
+            (2.0 * (value / rate).abs()).clamp(self.least, self.most)
+        } else {
+            self.most
+        };
+        (self.least, self.most) = (4.0 * self.least, 4.0 * self.most);
+        width
     }
 }
 
@@ -260,11 +312,7 @@ fn value_at<Map: OneStep, const N: usize, const M: usize, F: Dynamics<f64, N, M>
     elapsed: f64,
     statistics: &mut Statistics,
 ) -> Option<(f64, Vector<f64, N>)> {
-    let increment = if elapsed == 0.0 {
-        Vector::zeros()
-    } else {
-        crossing.increment::<M>(elapsed, statistics).ok()?
-    };
+    let increment = crossing.increment::<M>(elapsed, statistics).ok()?;
     let (value, ..) = crossing.switching(elapsed, &increment);
     value.is_finite().then_some((value, increment))
 }

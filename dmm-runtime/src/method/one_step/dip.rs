@@ -8,6 +8,7 @@
 use super::crossing::Crossing;
 use super::map::OneStep;
 use crate::contract::Dynamics;
+use crate::events::cubic::Reading;
 use crate::method::Statistics;
 
 /// Bisections for the minimum of g.
@@ -42,10 +43,7 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
             if middle <= falling || middle >= rising {
                 break;
             }
-            let increment = self.increment::<M>(middle, statistics).ok()?;
-            let (value, by_time, gradient) = self.switching(middle, &increment);
-            let x = self.state.x + increment;
-            let rate = by_time + gradient.dot(&self.dynamics.vector_field(self.t0 + middle, &x));
+            let Reading { value, rate } = self.reading::<M>(middle, statistics)?;
             if value < -noise {
                 return Some(Dip::Crossed {
                     lower: falling,
