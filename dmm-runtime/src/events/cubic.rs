@@ -60,6 +60,24 @@ pub(crate) struct Courses<S: Masked> {
     pub(crate) at: S,
 }
 
+impl Courses<f64> {
+    /// That of the one lane.
+    #[inline(always)]
+    fn course(self) -> Course {
+        let Self { from, at, .. } = self;
+        if self.free {
+            Course::Free
+        } else if self.falls {
+            Course::Falls { from, at }
+        } else {
+            Course::Unknown
+        }
+    }
+}
+
+/// Where a cubic is split, as parts of the step.
+const PLACES: [f64; 3] = [0.75, 0.5, 0.25];
+
 /// The cubic by its Bernstein coefficients.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cubic<S = f64> {
@@ -125,48 +143,69 @@ impl<S: Masked> Cubic<S> {
         let counts = starts_inside.or(S::Mask::all_are(is_active));
         let unknown = free.or(falls).not().and(used).and(counts);
         if unknown.any() {
-            self.courses_of_parts(bounds, unknown, &mut courses);
+            self.courses_of_parts(bounds, &PLACES, unknown, &mut courses);
         }
         courses
     }
 
-    /// The same on both sides of a place in between, in the lanes that are `unknown`.
+    /// The same on both sides of each place, in the lanes that are `unknown`.
     #[inline(always)]
-    fn courses_of_parts(&self, bounds: Bounds<S>, mut unknown: S::Mask, courses: &mut Courses<S>) {
-        let n = S::from_f64;
-        let [b0, b1, b2, b3] = self.coefficients;
-        let off = bounds.truncation * n(1.0 / 15.0);
-        let rest = off + bounds.noise;
-        for at in [0.75, 0.5, 0.25] {
-            let between = |a: S, b: S| (b - a).fused(n(at), a);
-            let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
-            let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
-            let split = between(left_2, right_1);
-            let counts = unknown.and(left_1.min(left_2).min(split).above(rest));
-            let stays = right_1.min(right_2).above(rest).and(b3.above(bounds.ends));
-            let free = counts.and(stays);
-            let after = 1.0 - at;
-            let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
-            let bound = off.fused(n(after), n(2.0) * bounds.noise);
-            let leaves = b3.at_most(-bounds.ends).and(slowest.above(bound));
-            let falls = counts.and(leaves).and(free.not());
-            if falls.any() {
-                let tau = n(after) * self.tau;
-                let start = Reading {
-                    value: split,
-                    rate: n(3.0) * (right_1 - split) / tau,
-                };
-                let from = n(at) * self.tau;
-                courses.from = falls.select(from, courses.from);
-                courses.at = falls.select(from + fall(start, self.end, tau), courses.at);
-            }
-            courses.free = courses.free.or(free);
+    fn courses_of_parts(
+        &self,
+        bounds: Bounds<S>,
+        places: &[f64],
+        mut unknown: S::Mask,
+        courses: &mut Courses<S>,
+    ) {
+        for &place in places {
+            let parts = self.parts(bounds, place);
+            let falls = unknown.and(parts.falls);
+            courses.free = courses.free.or(unknown.and(parts.free));
             courses.falls = courses.falls.or(falls);
-            unknown = unknown.and(free.or(falls).not());
+            courses.from = falls.select(parts.from, courses.from);
+            courses.at = falls.select(parts.at, courses.at);
+            unknown = unknown.and(parts.free.or(parts.falls).not());
             if !unknown.any() {
                 break;
             }
         }
+    }
+
+    /// The same on both sides of a place.
+    #[inline(always)]
+    fn parts(&self, bounds: Bounds<S>, place: f64) -> Courses<S> {
+        let n = S::from_f64;
+        let [b0, b1, b2, b3] = self.coefficients;
+        let off = bounds.truncation * n(1.0 / 15.0);
+        let rest = off + bounds.noise;
+        let between = |a: S, b: S| (b - a).fused(n(place), a);
+        let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
+        let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
+        let split = between(left_2, right_1);
+        let counts = left_1.min(left_2).min(split).above(rest);
+        let stays = right_1.min(right_2).above(rest).and(b3.above(bounds.ends));
+        let free = counts.and(stays);
+        let after = 1.0 - place;
+        let slowest = (split - right_1).min(right_1 - right_2).min(right_2 - b3);
+        let bound = off.fused(n(after), n(2.0) * bounds.noise);
+        let leaves = b3.at_most(-bounds.ends).and(slowest.above(bound));
+        let falls = counts.and(leaves).and(free.not());
+        let mut courses = Courses {
+            free,
+            falls,
+            from: n(0.0),
+            at: n(0.0),
+        };
+        if falls.any() {
+            let tau = n(after) * self.tau;
+            let start = Reading {
+                value: split,
+                rate: n(3.0) * (right_1 - split) / tau,
+            };
+            courses.from = n(place) * self.tau;
+            courses.at = courses.from + fall(start, self.end, tau);
+        }
+        courses
     }
 }
 
@@ -193,14 +232,17 @@ impl Cubic {
                 at: fall(self.start, self.end, self.tau),
             };
         }
-        if starts_inside || is_active {
-            self.course_of_parts(bounds)
-        } else {
-            Course::Unknown
+        if !(starts_inside || is_active) {
+            return Course::Unknown;
+        }
+        // mostly the first place is enough: apart, so that it works with registers
+        match self.parts(bounds, PLACES[0]).course() {
+            Course::Unknown => self.course_of_parts(bounds),
+            course => course,
         }
     }
 
-    /// The same on both sides of a place in between.
+    /// The same on both sides of the other places.
     #[inline(never)]
     fn course_of_parts(&self, bounds: Bounds) -> Course {
         let mut courses = Courses {
@@ -209,17 +251,8 @@ impl Cubic {
             from: 0.0,
             at: 0.0,
         };
-        self.courses_of_parts(bounds, true, &mut courses);
-        match courses {
-            Courses { free: true, .. } => Course::Free,
-            Courses {
-                falls: true,
-                from,
-                at,
-                ..
-            } => Course::Falls { from, at },
-            _ => Course::Unknown,
-        }
+        self.courses_of_parts(bounds, &PLACES[1..], true, &mut courses);
+        courses.course()
     }
 
     /// Whether g rises throughout.

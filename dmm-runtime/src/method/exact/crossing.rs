@@ -1,13 +1,12 @@
-//! The point where an exact flow meets a guard: the root of g in the short series at the
-//! nearest multiple of the smallest step, then a slide along the field, which is a straight line over what is
-//! left.
+//! The point where an exact flow meets a guard: the root of g in the short series at the end of the
+//! step, or at the nearest multiple of the smallest one, then a slide along the field, which is a
+//! straight line over what is left.
 
-use super::segment::Segment;
+use super::segment::{Entered, Segment};
 use super::step_sizes::StepSizes;
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::{Dynamics, Guards, Vector};
-use crate::level::Level;
 use crate::method::{Ended, Failure, Sink};
 
 /// Newton iterations of a crossing.
@@ -26,28 +25,31 @@ pub(super) struct Found {
 }
 
 impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
-    /// Moves to the guard: t̂* and x̂* on the flow with g = 0.
+    /// Moves to the guard, met in a step over a time to a state `end`: t̂* and x̂* on the flow with
+    /// g = 0; on the level of the segment, where that is looked at.
     #[inline(always)]
     pub(super) fn cross<const M: usize, D: Dynamics<f64, N, M>>(
         &mut self,
         dynamics: &D,
         sizes: &mut StepSizes<N>,
-        level: &mut Level<N, M>,
+        entered: Option<&mut Entered<N, M>>,
         found: Found,
-        tau: f64,
+        end: (f64, &State<N>),
     ) -> Result<Ended, Failure> {
         let (guard, _) = dynamics.sides()[found.side];
-        let (mut time, mut state) = match self.meet(dynamics, sizes, found, tau) {
+        let (mut time, mut state) = match self.meet(dynamics, sizes, found, end) {
             Some(point) => point,
             None => self.halve(dynamics, sizes, found),
         };
         let mut rate = slide(dynamics, guard, &mut time, &mut state);
-        if let Some(on_level) = self.on_level(dynamics, level, time, state) {
+        if let Some(entered) = entered
+            && let Some(on_level) = self.on_level(dynamics, entered, time, state)
+        {
             state = on_level;
             rate = slide(dynamics, guard, &mut time, &mut state);
         }
         if !is_finite(&state.x) || !rate.is_finite() {
-            return Err(Failure::not_located(guard, tau));
+            return Err(Failure::not_located(guard, end.0));
         }
         self.outputs(sizes, time);
         self.cursor.state = state;
@@ -56,15 +58,15 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         Ok(Ended::AtGuard { guard, rate })
     }
 
-    /// Where the flow meets a guard, but for a slide along the field; nothing if a root of g is
-    /// not found within the bracket: it may be another one.
+    /// Where the flow meets a guard in a step over `tau` to `end`, but for a slide along the field;
+    /// nothing if a root of g is not found within the bracket: it may be another one.
     #[inline(always)]
     fn meet<const M: usize, D: Dynamics<f64, N, M>>(
         &self,
         dynamics: &D,
         sizes: &mut StepSizes<N>,
         found: Found,
-        tau: f64,
+        (tau, end): (f64, &State<N>),
     ) -> Option<(Time, State<N>)> {
         /// Nodes to try: an estimate is mostly next to the right one.
         const MOST_NODES: u32 = 16;
@@ -75,7 +77,11 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             sizes.expected(found.side, found.elapsed)
         };
         for _ in 0..MOST_NODES {
-            let (node, offset, first) = sizes.node(&self.cursor.state, elapsed);
+            let (node, offset, first) = if sizes.ends_next_to(tau, elapsed) {
+                (*end, tau, elapsed - tau)
+            } else {
+                sizes.node(&self.cursor.state, elapsed)
+            };
             let short = sizes.short(node);
             let time = self.cursor.time.after(offset);
             let (value, by_time, _) = switching(dynamics, guard, time, &node);

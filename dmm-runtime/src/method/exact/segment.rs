@@ -13,17 +13,52 @@ pub(super) struct Segment<'a, S, const N: usize> {
     pub(super) sink: &'a mut S,
 }
 
+/// The level of a segment, taken when it is first asked for: the flow leaves it by rounding errors of
+/// pairs of doubles, so that short segments do without.
+pub(super) struct Entered<const N: usize, const M: usize> {
+    /// Where the segment began.
+    time: Time,
+    state: State<N>,
+    level: Option<Level<N, M>>,
+}
+
+impl<const N: usize, const M: usize> Entered<N, M> {
+    /// At the start of a segment, or of one that goes on.
+    #[inline(always)]
+    pub(super) fn new<D: Dynamics<f64, N, M>>(dynamics: &D, cursor: &Cursor<N>) -> Self {
+        let Cursor { time, state, .. } = *cursor;
+        let kept = cursor.level.as_deref();
+        Self {
+            time,
+            state,
+            level: kept.map(|kept| Level::enter(dynamics, time, &state, Some(kept))),
+        }
+    }
+
+    /// The level.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn level<D: Dynamics<f64, N, M>>(&mut self, dynamics: &D) -> &mut Level<N, M> {
+        let enter = || Level::enter(dynamics, self.time, &self.state, None);
+        self.level.get_or_insert_with(enter)
+    }
+}
+
 impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     /// The state put back on its level, if it has left it.
     #[inline(always)]
     pub(super) fn on_level<const M: usize, D: Dynamics<f64, N, M>>(
         &self,
         dynamics: &D,
-        level: &mut Level<N, M>,
+        entered: &mut Entered<N, M>,
         time: Time,
         state: State<N>,
     ) -> Option<State<N>> {
-        let strays = self.corrects_level && level.strays(dynamics, time, &state);
+        if !self.corrects_level {
+            return None;
+        }
+        let level = entered.level(dynamics);
+        let strays = level.strays(dynamics, time, &state);
         let put_back = || put_back(dynamics, level, time, state, &self.cursor.state.x);
         strays.then(put_back).flatten()
     }

@@ -14,6 +14,17 @@ pub(super) const TERMS: usize = 16;
 /// Aᵏ⁻¹/k!, k from 1.
 pub(super) type Powers<const N: usize> = [Rows<f64, N>; TERMS];
 
+/// 1/(k + 1)
+const INVERSES: [f64; TERMS] = {
+    let mut inverses = [1.0; TERMS];
+    let mut k = 1;
+    while k < TERMS {
+        inverses[k] = 1.0 / (k + 1) as f64;
+        k += 1;
+    }
+    inverses
+};
+
 /// The matrices of the terms.
 pub(super) fn powers<const N: usize>(a: &Rows<f64, N>) -> Powers<N> {
     let mut powers = [[[0.0; N]; N]; TERMS];
@@ -21,12 +32,11 @@ pub(super) fn powers<const N: usize>(a: &Rows<f64, N>) -> Powers<N> {
         row[i] = 1.0;
     }
     for k in 1..TERMS {
-        let inverse = 1.0 / (k + 1) as f64;
         let (before, rest) = powers.split_at_mut(k);
         for (target, row) in rest[0].iter_mut().zip(a) {
             for (&entry, factor) in row.iter().zip(&before[k - 1]) {
                 for (target, factor) in target.iter_mut().zip(factor) {
-                    *target += entry * inverse * factor;
+                    *target += entry * INVERSES[k] * factor;
                 }
             }
         }

@@ -16,7 +16,7 @@ use crate::contract::{Dynamics, Guards, Vector};
 
 /// h times the spectral radius of A: from an interface to the next one, half a turn of an
 /// oscillator, in one step.
-const REACH: f64 = 3.25;
+const REACH: f64 = 3.2;
 /// The exponent of h.
 pub(crate) const FIRST: usize = 4;
 /// There are no larger ones from here on.
@@ -53,16 +53,14 @@ pub(crate) struct StepSizes<const N: usize> {
     pub(super) coefficients: Coefficients<N>,
     /// h/16
     pub(super) lowest: f64,
-    /// By exponent.
-    sizes: [f64; HIGHEST],
     /// 16/h
     per_part: f64,
     /// By exponent.
     pub(super) flows: Vec<Propagator<N>>,
     /// Aᵏ⁻¹/k!
     pub(super) powers: Box<Powers<N>>,
-    /// Over those sixteenths of h that are no step sizes.
-    sixteenths: [Option<Propagator<N>>; PARTS],
+    /// Over those sixteenths of h that are no step sizes; empty until one is needed.
+    sixteenths: Vec<Option<Propagator<N>>>,
     pub(super) switching: Vec<Switching<N>>,
 }
 
@@ -85,7 +83,8 @@ impl<const N: usize> StepSizes<N> {
             }
             step *= 0.5;
         }
-        let mut flows = vec![first.filter(Propagator::is_finite)?];
+        let mut flows = Vec::with_capacity(FIRST + 2);
+        flows.push(first.filter(Propagator::is_finite)?);
         for exponent in 0..FIRST {
             flows.push(flows[exponent].after(&flows[exponent]));
         }
@@ -93,10 +92,9 @@ impl<const N: usize> StepSizes<N> {
             powers: Box::new(powers(&coefficients.matrix)),
             coefficients,
             lowest: step / PARTS as f64,
-            sizes: std::array::from_fn(|exponent| step / PARTS as f64 * (1u64 << exponent) as f64),
             per_part: PARTS as f64 / step,
             flows,
-            sixteenths: [const { None }; PARTS],
+            sixteenths: Vec::new(),
             switching: Vec::new(),
         };
         let sides = dynamics.sides();
@@ -114,7 +112,7 @@ impl<const N: usize> StepSizes<N> {
     /// The step on a exponent.
     #[inline(always)]
     pub(crate) fn size(&self, exponent: usize) -> f64 {
-        self.sizes[exponent]
+        self.lowest * (1u64 << exponent) as f64
     }
 
     /// The flow over a step.
@@ -146,19 +144,34 @@ impl<const N: usize> StepSizes<N> {
         let state = match number {
             0 => *state,
             _ if number.is_power_of_two() => self.flows[number.ilog2() as usize].apply(state),
-            _ => {
-                let flows = &self.flows;
-                let flow = self.sixteenths[number].get_or_insert_with(|| composed(flows, number));
-                flow.apply(state)
-            }
+            _ => match self.sixteenths.get(number) {
+                Some(Some(flow)) => flow.apply(state),
+                _ => self.compose(number).apply(state),
+            },
         };
         (state, offset, tau - offset)
+    }
+
+    /// The flow over a multiple of h/16 that is no step size.
+    #[cold]
+    fn compose(&mut self, number: usize) -> &Propagator<N> {
+        if self.sixteenths.is_empty() {
+            self.sixteenths.resize_with(PARTS, || None);
+        }
+        let flows = &self.flows;
+        self.sixteenths[number].get_or_insert_with(|| composed(flows, number))
     }
 
     /// Whether a short time is so short that the node is the nearest one, or about that.
     #[inline(always)]
     pub(crate) fn is_next_to(&self, rest: f64) -> bool {
         rest.abs() <= 1.25 * self.lowest
+    }
+
+    /// Whether a step is one over h, and its end the node nearest to τ.
+    #[inline(always)]
+    pub(crate) fn ends_next_to(&self, step: f64, tau: f64) -> bool {
+        step == self.size(FIRST) && (tau - step).abs() <= 0.5 * self.lowest
     }
 
     /// The flow over short times.
@@ -184,7 +197,6 @@ impl<const N: usize> StepSizes<N> {
 }
 
 /// The flow over `number` times the lowest step, of those over its powers of two.
-#[cold]
 fn composed<const N: usize>(flows: &[Propagator<N>], number: usize) -> Propagator<N> {
     let mut bits = (0..flows.len()).filter(|bit| number >> bit & 1 == 1);
     let first = bits.next().unwrap_or_default();

@@ -9,7 +9,7 @@
 //! a Taylor step.
 
 use super::crossing::Found;
-use super::segment::Segment;
+use super::segment::{Entered, Segment};
 use super::step_sizes::{FIRST, StepSizes};
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{State, Time, noise};
@@ -18,7 +18,6 @@ use crate::events::cubic::{self, Bounds, Cubic, Reading};
 use crate::events::{Root, Series};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::unit_for;
-use crate::level::Level;
 use crate::method::{Ended, Failure, Sink, StepFailure};
 use crate::series::{MOST_COEFFICIENTS, Rolled};
 
@@ -115,10 +114,9 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         stopped: &mut Option<Progress<N>>,
         end: Time,
     ) -> Result<Ended, Failure> {
-        let kept = self.cursor.level.as_deref();
-        let mut level = Level::enter(dynamics, self.cursor.time, &self.cursor.state, kept);
+        let mut entered = Entered::new(dynamics, self.cursor);
         let at = Place::new(dynamics, self.cursor.time.value, self.cursor.state);
-        let progress = stopped.take().filter(|_| kept.is_some());
+        let progress = stopped.take().filter(|_| self.cursor.level.is_some());
         let mut start = Start {
             progress: progress.unwrap_or(Progress {
                 exponent: FIRST,
@@ -142,7 +140,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let room = match course {
                 Course::Free { room } => room,
                 Course::Crossing(found) => {
-                    return self.cross(dynamics, sizes, &mut level, found, trial.tau);
+                    let is_long = start.progress.count >= INTERVAL;
+                    let entered = is_long.then_some(&mut entered);
+                    let end = (trial.tau, &trial.end.state);
+                    return self.cross(dynamics, sizes, entered, found, end);
                 }
                 Course::Lost => return Err(StepFailure::NotFinite.over(trial.tau)),
                 Course::Unknown(guard) => {
@@ -161,7 +162,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             start.advance(sizes, trial.exponent, room, trial.end);
             start.progress.count += 1;
             if start.progress.count.is_multiple_of(INTERVAL)
-                && let Some(state) = self.on_level(dynamics, &mut level, time, start.at.state)
+                && let Some(state) = self.on_level(dynamics, &mut entered, time, start.at.state)
             {
                 start.at = Place::new(dynamics, time.value, state);
             }
@@ -170,7 +171,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             self.cursor.active.clear();
             self.sink.statistics().steps += 1;
             if self.sink.point(time, &self.cursor.state).is_break() {
-                self.cursor.level = Some(level.kept());
+                self.cursor.level = Some(entered.level(dynamics).kept());
                 *stopped = Some(start.progress);
                 return Ok(Ended::Stopped);
             }
