@@ -12,7 +12,7 @@
 //! columns are states and parameters; `HOW` is `lanes` or `single`. What cannot be answered is
 //! `{"error": "…"}`. A run starts from the problem's initial value, and what is timed is all of
 //! it: nothing is kept from one to the next. Seconds are of the thread's processor time, which
-//! other work on the machine lengthens little.
+//! other work on the machine lengthens little; what reading that clock takes is taken off.
 //!
 //! With the feature `compiled` there are larger systems too, for Taylor's method, and
 //! `cargo run --release -p dmm-problems --features compiled --example timed -- chains` prints the time of a
@@ -139,10 +139,11 @@ fn request(
 fn timed(problem: &Problem, run: &Run, repeats: usize) -> Result<Value, Box<dyn Error>> {
     let mut seconds = Vec::with_capacity(repeats);
     let mut finish = None;
+    let nothing = time_of_nothing();
     for _ in 0..repeats.max(1) {
         let start = ThreadTime::now();
         let finished = std::hint::black_box(problem.integrate_silently(run)?);
-        seconds.push(start.elapsed().as_secs_f64());
+        seconds.push((start.elapsed().as_secs_f64() - nothing).max(0.0));
         finish = Some(finished);
     }
     let finish = finish.ok_or("nothing was run")?;
@@ -152,6 +153,13 @@ fn timed(problem: &Problem, run: &Run, repeats: usize) -> Result<Value, Box<dyn 
         "transitions": finish.statistics.transitions,
         "seconds": seconds,
     }))
+}
+
+/// The least time that the clock shows of nothing.
+fn time_of_nothing() -> f64 {
+    const ATTEMPTS: usize = 100;
+    let attempts = (0..ATTEMPTS).map(|_| ThreadTime::now().elapsed().as_secs_f64());
+    attempts.fold(f64::INFINITY, f64::min)
 }
 
 /// Where the runs of a file start.
