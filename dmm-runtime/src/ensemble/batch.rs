@@ -257,7 +257,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         let trajectory = &mut self.trajectories[number];
         let started = self.register.store(lane, trajectory);
         if started || leave != Leave::Hard {
-            trajectory.arrived();
+            trajectory.entered();
         }
         match leave {
             Leave::Not => self.queues.of(region, Job::Step).push(number),
@@ -274,8 +274,8 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
     fn enter(&mut self, region: usize, interface: usize) -> Option<usize> {
         let other = self.neighbours[region * self.queues.interfaces + interface];
         let index = other?.0;
-        let arrived = Leave::Crossed(interface);
-        let stays = |lane| self.register.is_idle(lane) || self.register.leave(lane) == arrived;
+        let crossed = Leave::Crossed(interface);
+        let stays = |lane| self.register.is_idle(lane) || self.register.leave(lane) == crossed;
         if !(0..WIDTH).all(stays) {
             return None;
         }

@@ -118,7 +118,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     /// The region entered has taken it.
-    pub(super) fn arrived(&mut self) {
+    pub(super) fn entered(&mut self) {
         if self.crossing.is_some() {
             TransitionKind::Crossed.count(&mut self.statistics);
         }

@@ -99,7 +99,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         // the squares of displacements, relative to the state
         let share = inverse / weights.unit;
         let firsts = first * first * share;
-        let coarse = S::from_f64(COARSE * COARSE * COARSE * COARSE);
+        let coarse_together = S::from_f64(COARSE * COARSE * COARSE * COARSE);
         let twice = S::from_f64(2.0) / first;
         let mut bent = None;
         let (mut reached, left) =
@@ -107,7 +107,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
                 let next = residual[0];
                 let bent = *bent.get_or_insert_with(|| bend(twice, next));
                 // what that leaves is of third order
-                let left = (firsts * firsts * (next * next * share)).above(coarse);
+                let left = (firsts * firsts * (next * next * share)).above(coarse_together);
                 (less(state, &gain, bent.fused(next, next)), left)
             });
         let rest = flat.or(left);

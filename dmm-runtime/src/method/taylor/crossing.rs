@@ -28,14 +28,14 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let (there, is_there) =
                 GuardPoint::settled(near, dynamics, level, found.guard, &increment, how);
             if is_there {
-                return Ok(self.arrive::<P, M, D, U>(dynamics, level, jet, (found, tau), there));
+                return Ok(self.end_on::<P, M, D, U>(dynamics, level, jet, (found, tau), there));
             }
         }
         let there = self
             .locate::<P, M, D, U>(dynamics, level, jet, found, tau)
             .or_else(|| self.about_condition::<P, M, D, U>(dynamics, jet, found))
             .ok_or(Failure::not_located(found.guard, tau))?;
-        Ok(self.arrive::<P, M, D, U>(dynamics, level, jet, (found, tau), there))
+        Ok(self.end_on::<P, M, D, U>(dynamics, level, jet, (found, tau), there))
     }
 
     /// Whether the level is corrected on the guard: beyond a condition ψ may have another value.
@@ -50,7 +50,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
 
     /// Ends the segment on the guard.
     #[inline(always)]
-    fn arrive<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
+    fn end_on<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
         &mut self,
         dynamics: &D,
         level: &Level<N, M>,

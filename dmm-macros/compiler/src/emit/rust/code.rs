@@ -111,7 +111,7 @@ impl<'a> Block<'a> {
     }
 
     /// A name that nothing has yet.
-    pub(super) fn fresh(&mut self, stem: &str) -> Ident {
+    pub(super) fn unused_name(&mut self, stem: &str) -> Ident {
         self.names.number(stem)
     }
 

@@ -324,7 +324,7 @@ impl Writer<'_, '_> {
         self.derivative(argument, derivative);
         let [next_cosine, next_sine] = places.map(|place| self.integral(derivative, place));
         let next_cosine = minus(is_negative, &next_cosine);
-        let names = functions.map(|one| self.block.fresh(one.name()));
+        let names = functions.map(|one| self.block.unused_name(one.name()));
         let [s, c] = &names;
         self.block.push(quote! {
             let (#s, #c) = if at == 0 { (#sine, #cosine) } else { (#next_sine, #next_cosine) };

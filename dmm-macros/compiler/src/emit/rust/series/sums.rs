@@ -32,7 +32,7 @@ impl Writer<'_, '_> {
         if lanes == 0 {
             return;
         }
-        let names = self.block.fresh("sums");
+        let names = self.block.unused_name("sums");
         let (scalar, function) = (self.scope.scalar, format_ident!("{name}"));
         let [from, to, lanes] = [range.start, range.end, lanes].map(paths::count);
         self.block.push(quote! {

@@ -104,7 +104,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             self.block.push(quote!(#array[at] = #value;));
             value = quote!(#array[at]);
         } else if !is_name(&value) {
-            let name = self.block.fresh("c");
+            let name = self.block.unused_name("c");
             self.block.push(quote!(let #name = #value;));
             value = quote!(#name);
         }
@@ -179,7 +179,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             return half.clone();
         }
         let value = self.half_sum_of("half_square", of);
-        let half = self.block.fresh("half");
+        let half = self.block.unused_name("half");
         self.block.push(quote!(let #half = #value;));
         self.halves.insert(node, half.clone());
         half
