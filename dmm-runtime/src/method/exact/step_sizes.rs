@@ -15,7 +15,7 @@ use crate::arithmetic::linear::is_finite;
 use crate::contract::{Dynamics, Guards, Vector};
 
 /// h times the spectral radius of A: from an interface to the next one, half a turn of an
-/// oscillator, in one step.
+/// oscillator, in one step that ends next to it.
 const REACH: f64 = 3.2;
 /// The exponent of h.
 pub(crate) const FIRST: usize = 4;
@@ -109,7 +109,7 @@ impl<const N: usize> StepSizes<N> {
         Some(sizes)
     }
 
-    /// The step on a exponent.
+    /// The step size of an exponent.
     #[inline(always)]
     pub(crate) fn size(&self, exponent: usize) -> f64 {
         self.lowest * (1u64 << exponent) as f64
