@@ -158,12 +158,11 @@ impl<S: Masked> Cubic<S> {
         courses: &mut Courses<S>,
     ) {
         for &place in places {
-            let parts = self.parts(bounds, place);
-            let falls = unknown.and(parts.falls);
-            courses.free = courses.free.or(unknown.and(parts.free));
-            courses.falls = courses.falls.or(falls);
-            courses.from = falls.select(parts.from, courses.from);
-            courses.at = falls.select(parts.at, courses.at);
+            let parts = self.parts(bounds, place, unknown);
+            courses.free = courses.free.or(parts.free);
+            courses.falls = courses.falls.or(parts.falls);
+            courses.from = parts.falls.select(parts.from, courses.from);
+            courses.at = parts.falls.select(parts.at, courses.at);
             unknown = unknown.and(parts.free.or(parts.falls).not());
             if !unknown.any() {
                 break;
@@ -171,9 +170,9 @@ impl<S: Masked> Cubic<S> {
         }
     }
 
-    /// The same on both sides of a place.
+    /// The same on both sides of a place, in every lane that is `used`.
     #[inline(always)]
-    fn parts(&self, bounds: Bounds<S>, place: f64) -> Courses<S> {
+    fn parts(&self, bounds: Bounds<S>, place: f64, used: S::Mask) -> Courses<S> {
         let n = S::from_f64;
         let [b0, b1, b2, b3] = self.coefficients;
         let off = bounds.truncation * n(1.0 / 15.0);
@@ -182,7 +181,7 @@ impl<S: Masked> Cubic<S> {
         let (left_1, middle, right_2) = (between(b0, b1), between(b1, b2), between(b2, b3));
         let (left_2, right_1) = (between(left_1, middle), between(middle, right_2));
         let split = between(left_2, right_1);
-        let counts = left_1.min(left_2).min(split).above(rest);
+        let counts = used.and(left_1.min(left_2).min(split).above(rest));
         let stays = right_1.min(right_2).above(rest).and(b3.above(bounds.ends));
         let free = counts.and(stays);
         let after = 1.0 - place;
@@ -236,7 +235,7 @@ impl Cubic {
             return Course::Unknown;
         }
         // mostly the first place is enough: apart, so that it works with registers
-        match self.parts(bounds, PLACES[0]).course() {
+        match self.parts(bounds, PLACES[0], true).course() {
             Course::Unknown => self.course_of_parts(bounds),
             course => course,
         }

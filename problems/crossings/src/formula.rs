@@ -200,26 +200,33 @@ pub(super) trait Number: Copy {
     }
 }
 
+/// The arithmetic of a type that has operators.
+macro_rules! by_operators {
+    () => {
+        fn plus(self, other: Self) -> Self {
+            self + other
+        }
+
+        fn negative(self) -> Self {
+            -self
+        }
+
+        fn times(self, other: Self) -> Self {
+            self * other
+        }
+
+        fn over(self, other: Self) -> Self {
+            self / other
+        }
+    };
+}
+
 impl Number for f64 {
     fn constant(value: f64) -> Self {
         value
     }
 
-    fn plus(self, other: Self) -> Self {
-        self + other
-    }
-
-    fn negative(self) -> Self {
-        -self
-    }
-
-    fn times(self, other: Self) -> Self {
-        self * other
-    }
-
-    fn over(self, other: Self) -> Self {
-        self / other
-    }
+    by_operators!();
 
     fn apply(self, function: Function) -> Self {
         match function {
@@ -239,21 +246,7 @@ impl Number for Pair {
         Self::new(value)
     }
 
-    fn plus(self, other: Self) -> Self {
-        self + other
-    }
-
-    fn negative(self) -> Self {
-        -self
-    }
-
-    fn times(self, other: Self) -> Self {
-        self * other
-    }
-
-    fn over(self, other: Self) -> Self {
-        self / other
-    }
+    by_operators!();
 
     fn apply(self, function: Function) -> Self {
         match function {

@@ -19,7 +19,7 @@ pub(crate) type Rows<T, const N: usize> = [[T; N]; N];
 /// Terms of the series.
 const MOST_TERMS: usize = 40;
 /// 1/k, up to that of the last term of φ; k = 0 stands for none.
-const INVERSES: [Double; MOST_TERMS + 2] = {
+pub(super) const INVERSES: [Double; MOST_TERMS + 2] = {
     let mut inverses = [Double::ONE; MOST_TERMS + 2];
     let mut k = 1;
     while k < inverses.len() {

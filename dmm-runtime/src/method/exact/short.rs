@@ -1,7 +1,7 @@
 //! The exact flow over a short time d: x + d f + Σ dᵏ Aᵏ⁻¹ f/k!, with the first term in pairs of
 //! doubles. The others are below d²/2, and their rounding errors far below those of x.
 
-use super::propagator::{Coefficients, Rows};
+use super::propagator::{Coefficients, INVERSES, Rows};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::State;
 use crate::arithmetic::double::Double;
@@ -14,17 +14,6 @@ pub(super) const TERMS: usize = 16;
 /// Aᵏ⁻¹/k!, k from 1.
 pub(super) type Powers<const N: usize> = [Rows<f64, N>; TERMS];
 
-/// 1/(k + 1)
-const INVERSES: [f64; TERMS] = {
-    let mut inverses = [1.0; TERMS];
-    let mut k = 1;
-    while k < TERMS {
-        inverses[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    inverses
-};
-
 /// The matrices of the terms.
 pub(super) fn powers<const N: usize>(a: &Rows<f64, N>) -> Powers<N> {
     let mut powers = [[[0.0; N]; N]; TERMS];
@@ -32,11 +21,12 @@ pub(super) fn powers<const N: usize>(a: &Rows<f64, N>) -> Powers<N> {
         row[i] = 1.0;
     }
     for k in 1..TERMS {
+        let inverse = INVERSES[k + 1].high;
         let (before, rest) = powers.split_at_mut(k);
         for (target, row) in rest[0].iter_mut().zip(a) {
             for (&entry, factor) in row.iter().zip(&before[k - 1]) {
                 for (target, factor) in target.iter_mut().zip(factor) {
-                    *target += entry * INVERSES[k] * factor;
+                    *target += entry * inverse * factor;
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! What is known of the switching functions along its flow: bounds of how they
 //! bend in a step, and their series next to a root.
 
-use super::propagator::{Coefficients, times};
+use super::propagator::{Coefficients, INVERSES, times};
 use super::step_sizes::{FIRST, PARTS, StepSizes, Switching, TERMS};
 use crate::arithmetic::Scalar;
 use crate::arithmetic::double::Double;
@@ -31,7 +31,7 @@ impl<const N: usize> StepSizes<N> {
     /// max |c A³ exp(sA)| over 0 ≤ s ≤ h: on each eighth by the sum of the terms of its series, of
     /// which those that are left out are below 10⁻⁷ of it.
     fn early(&self, gradient: &Vector<f64, N>) -> Vector<f64, N> {
-        const TERMS: u32 = 9;
+        const TERMS: usize = 9;
         const MARGIN: f64 = 1.0 + 1e-6;
         const EXPONENT: usize = 1;
         let a = &self.coefficients.matrix;
@@ -44,11 +44,11 @@ impl<const N: usize> StepSizes<N> {
             }
             let mut term = row;
             let mut sum = [0.0; N];
-            for k in 1..=TERMS {
+            for inverse in &INVERSES[1..=TERMS] {
                 for (sum, term) in sum.iter_mut().zip(&term) {
                     *sum += term.abs();
                 }
-                let factor = self.size(EXPONENT) * inverse(k);
+                let factor = self.size(EXPONENT) * inverse.high;
                 term = times(a, &term).map(|entry| entry * factor);
             }
             largest = largest.sup(&Vector::from(sum));
@@ -171,11 +171,6 @@ fn product<const N: usize>(row: &Vector<f64, N>, v: &Vector<f64, N>) -> f64 {
 #[inline(always)]
 fn size_of<const N: usize>(row: &Vector<f64, N>, v: &Vector<f64, N>) -> f64 {
     product(row, &v.map(f64::abs))
-}
-
-/// 1/k
-fn inverse(k: u32) -> f64 {
-    1.0 / f64::from(k)
 }
 
 fn pairs<const N: usize>(row: &Vector<f64, N>) -> [Double; N] {

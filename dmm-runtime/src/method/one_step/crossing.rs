@@ -156,7 +156,7 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
             }
             self.upper = (self.upper + later.next(reading)).min(tau);
         }
-        if !ends && self.upper >= tau && self.reading(tau, statistics)?.value > 0.0 {
+        if !ends && self.upper >= tau && value_at(self, tau, statistics)?.0 > 0.0 {
             return Some(false);
         }
         let mut earlier = widening;
@@ -173,7 +173,7 @@ impl<Map: OneStep, F, const N: usize> Crossing<'_, Map, F, N> {
         let mut middle = self.upper;
         for _ in 0..MOST_HALVINGS {
             middle *= 0.5;
-            if self.reading(middle, statistics)?.value > 0.0 {
+            if value_at(self, middle, statistics)?.0 > 0.0 {
                 self.lower = middle;
                 return Some(true);
             }
