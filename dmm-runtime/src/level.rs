@@ -19,12 +19,13 @@ mod pairs;
 mod reached;
 mod weights;
 
-use crate::arithmetic::MinimalNorm;
-use crate::arithmetic::State;
-use crate::arithmetic::Time;
 use crate::arithmetic::double::Pair;
+use crate::arithmetic::lanes::{Lanes, Vectorised};
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
+use pulp::NullaryFnOnce;
+
+use crate::arithmetic::{MinimalNorm, State, Time, filled};
 use crate::contract::{Dynamics, Matrix, Vector};
 
 use factors::Factors;
@@ -40,6 +41,7 @@ pub(crate) struct Level<const N: usize, const M: usize, S: Masked = f64> {
     pub(crate) remainder: Vector<S, M>,
     /// (|terms of ψ|/|x|)²: the squares of slopes count relative to these.
     pub(crate) scale: Vector<S, M>,
+    pub(crate) apart: S::Apart,
 }
 
 /// Where the slope is smaller than this, rounding errors of ψ would move the state by more
@@ -52,24 +54,21 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 const NONE: f64 = 1e-6;
 
 impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
-    /// The level at the entry into a mode, or the one that was `kept` of a segment that goes on.
+    /// The level ψ at a state.
     #[inline(always)]
-    pub(crate) fn enter<F: Dynamics<S, N, M>>(
+    fn at<F: Dynamics<S, N, M>>(
         dynamics: &F,
-        time: Time<S>,
-        state: &State<N, S>,
-        kept: Option<&[[f64; 2]]>,
+        (t, state): (S, &State<N, S>),
+        psi: &Vector<Pair<S>, M>,
+        apart: S::Apart,
     ) -> Self {
-        let psi = match kept {
-            Some(kept) => from_kept(kept),
-            None => in_pairs(dynamics, time, state),
-        };
         let mut level = Self {
-            reference: vector(|m| psi[m].high),
-            remainder: vector(|m| psi[m].low),
-            scale: vector(|_| S::from_f64(0.0)),
+            reference: vector!(|m| psi[m].high),
+            remainder: vector!(|m| psi[m].low),
+            scale: filled(S::from_f64(0.0)),
+            apart,
         };
-        level.rescale(dynamics, time.value, state);
+        level.rescale(dynamics, t, state);
         level
     }
 
@@ -83,16 +82,19 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         state: &State<N, S>,
     ) {
         let least = S::from_f64(f64::MIN_POSITIVE);
-        let square = (0..N).fold(least, |largest, i| largest.max(state.x[i] * state.x[i]));
+        let mut square = least;
+        for i in 0..N {
+            square = square.max(state.x[i] * state.x[i]);
+        }
         let size = dynamics.conserved_size(t, &state.x);
-        self.scale = vector(|m| size[m] * (size[m] / square) + least);
+        self.scale = vector!(|m| size[m] * (size[m] / square) + least);
     }
 
     /// The squares of slopes below which a part of the scale is.
     #[inline(always)]
     fn bound(&self, part: f64, weights: &Weights<N, S>) -> Vector<S, M> {
         let factor = S::from_f64(part * part) * weights.largest;
-        vector(|m| self.scale[m] * factor)
+        vector!(|m| self.scale[m] * factor)
     }
 
     /// ψ(t, x) − ψ_ref, from ψ of the rounded state.
@@ -103,23 +105,23 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         multiplier: &Matrix<S, M, N>,
         remainder: &Vector<S, N>,
     ) -> Vector<S, M> {
-        vector(|m| {
+        vector!(|m| {
             let drift = dot(&row(multiplier, m), remainder) - self.remainder[m];
             (psi[m] - self.reference[m]) + drift
         })
     }
 
-    /// The displacement δx towards the level.
+    /// The displacement δx towards the level, in the lanes that are `used`.
     #[inline(always)]
     pub(crate) fn correction<F: Dynamics<S, N, M>>(
         &self,
         dynamics: &F,
         time: Time<S>,
         state: &State<N, S>,
-        weights: &Weights<N, S>,
+        (weights, used): (&Weights<N, S>, S::Mask),
     ) -> Vector<S, N> {
         if M == 0 || dynamics.quantities() == 0 {
-            return vector(|_| S::from_f64(0.0));
+            return filled(S::from_f64(0.0));
         }
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let little = self.bound(little(N), weights);
@@ -131,32 +133,24 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             let remainder = remainder(dynamics, time, state);
             let residual = self.rounded_residual(&psi, &multiplier, &remainder);
             let factor = -(residual[0] * inverse);
-            (vector(|i| weighted[i] * factor), square.above(little[0]))
+            (vector!(|i| weighted[i] * factor), square.above(little[0]))
         } else {
             let remainder = remainder(dynamics, time, state);
             let residual = self.rounded_residual(&psi, &multiplier, &remainder);
-            weights.solved((&multiplier, dynamics.quantities()), &residual, &little)
+            let rows = (&multiplier, dynamics.quantities());
+            weights.solved(rows, &residual, (&little, used))
         };
-        if steep.all() {
+        if !steep.not().and(used).any() {
             return displacement;
         }
-        let gentle = self.gentle(dynamics, time, state, &multiplier, weights);
-        steep.select_vector(&displacement, &gentle)
-    }
-
-    /// The displacement where ψ has little slope, with the residual in pairs of doubles.
-    #[cold]
-    #[inline(never)]
-    fn gentle<F: Dynamics<S, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time<S>,
-        state: &State<N, S>,
-        multiplier: &Matrix<S, M, N>,
-        weights: &Weights<N, S>,
-    ) -> Vector<S, N> {
-        let residual = self.residual(dynamics, time, state);
-        self.towards((multiplier, dynamics.quantities()), &residual, weights)
+        let gentle = Gentle {
+            level: self,
+            dynamics,
+            place: (time, state),
+            multiplier: &multiplier,
+            how: (weights, used),
+        };
+        steep.select_vector(&displacement, &S::apart(self.apart, gentle))
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.
@@ -168,16 +162,16 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         state: &State<N, S>,
     ) -> Vector<S, M> {
         let psi = in_pairs(dynamics, time, state);
-        vector(|m| (psi[m] - Pair::new(self.reference[m], self.remainder[m])).high)
+        vector!(|m| (psi[m] - Pair::new(self.reference[m], self.remainder[m])).high)
     }
 
-    /// The displacement that takes a residual off.
+    /// The displacement that takes a residual off, in the lanes that are `used`.
     #[inline(always)]
     pub(crate) fn towards(
         &self,
         (multiplier, count): (&Matrix<S, M, N>, usize),
         residual: &Vector<S, M>,
-        weights: &Weights<N, S>,
+        (weights, used): (&Weights<N, S>, S::Mask),
     ) -> Vector<S, N> {
         let damping = self.bound(NONE, weights);
         if M == 1 {
@@ -188,11 +182,11 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             let damping = steep.select(S::from_f64(0.0), damping[0]);
             // whose inverse may leave the range of doubles
             let factor = -(residual[0] / (square + damping));
-            return vector(|i| weighted[i] * factor);
+            return vector!(|i| weighted[i] * factor);
         }
         let fast = Factors::new(weights, (multiplier, count), &damping);
         let displacement = fast.displacement(residual);
-        if fast.steep.all() {
+        if !fast.steep.not().and(used).any() {
             return displacement;
         }
         let gentle =
@@ -208,7 +202,59 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
     }
 }
 
+/// The displacement where ψ has little slope, with the residual in pairs of doubles.
+struct Gentle<'a, F, const N: usize, const M: usize, S: Masked> {
+    level: &'a Level<N, M, S>,
+    dynamics: &'a F,
+    place: (Time<S>, &'a State<N, S>),
+    multiplier: &'a Matrix<S, M, N>,
+    how: (&'a Weights<N, S>, S::Mask),
+}
+
+impl<F: Dynamics<S, N, M>, const N: usize, const M: usize, S: Masked> NullaryFnOnce
+    for Gentle<'_, F, N, M, S>
+{
+    type Output = Vector<S, N>;
+
+    #[inline(always)]
+    fn call(self) -> Vector<S, N> {
+        let (time, state) = self.place;
+        let residual = self.level.residual(self.dynamics, time, state);
+        let rows = (self.multiplier, self.dynamics.quantities());
+        self.level.towards(rows, &residual, self.how)
+    }
+}
+
+impl<const N: usize, const M: usize, const L: usize> Level<N, M, Lanes<L>> {
+    /// The levels at the entry into a mode.
+    #[inline(always)]
+    pub(crate) fn in_lanes<F: Dynamics<Lanes<L>, N, M>>(
+        dynamics: &F,
+        time: Time<Lanes<L>>,
+        state: &State<N, Lanes<L>>,
+        apart: Vectorised,
+    ) -> Self {
+        let psi = in_pairs(dynamics, time, state);
+        Self::at(dynamics, (time.value, state), &psi, apart)
+    }
+}
+
 impl<const N: usize, const M: usize> Level<N, M> {
+    /// The level at the entry into a mode, or the one that was `kept` of a segment that goes on.
+    #[inline(always)]
+    pub(crate) fn enter<F: Dynamics<f64, N, M>>(
+        dynamics: &F,
+        time: Time,
+        state: &State<N>,
+        kept: Option<&[[f64; 2]]>,
+    ) -> Self {
+        let psi = match kept {
+            Some(kept) => from_kept(kept),
+            None => in_pairs(dynamics, time, state),
+        };
+        Self::at(dynamics, (time.value, state), &psi, ())
+    }
+
     /// What goes on with the next segment.
     #[cold]
     pub(crate) fn kept(&self) -> Vec<[f64; 2]> {
@@ -245,14 +291,14 @@ fn row<S: Masked, const N: usize, const M: usize>(
     multiplier: &Matrix<S, M, N>,
     m: usize,
 ) -> Vector<S, N> {
-    vector(|i| multiplier[(m, i)])
+    vector!(|i| multiplier[(m, i)])
 }
 
 /// ψ_ref of a segment that was stopped; NaN where there is none.
 #[cold]
-fn from_kept<S: Masked, const M: usize>(kept: &[[f64; 2]]) -> Vector<Pair<S>, M> {
-    vector(|i| {
+fn from_kept<const M: usize>(kept: &[[f64; 2]]) -> Vector<Pair<f64>, M> {
+    vector!(|i| {
         let [high, low] = kept.get(i).copied().unwrap_or([f64::NAN; 2]);
-        Pair::new(S::from_f64(high), S::from_f64(low))
+        Pair::new(high, low)
     })
 }

@@ -71,6 +71,12 @@ impl<S: Masked> Pair<S> {
         Self::new(high, a.product_error(b, high))
     }
 
+    /// See [`Scalar::settled`].
+    #[inline(always)]
+    fn settled(self) -> Self {
+        Self::new(self.high.settled(), self.low.settled())
+    }
+
     /// The results of `value` by lane.
     #[inline(always)]
     pub(crate) fn each(self, value: impl Fn(Double) -> Double) -> Self {
@@ -129,8 +135,9 @@ impl Double {
     }
 }
 
+// what is not inlined does not compute in lanes
 impl<S: Scalar> From<S> for Pair<S> {
-    #[inline]
+    #[inline(always)]
     fn from(value: S) -> Self {
         Self {
             high: value,
@@ -142,7 +149,7 @@ impl<S: Scalar> From<S> for Pair<S> {
 impl<S: Masked> Neg for Pair<S> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self {
             high: -self.high,
@@ -154,20 +161,19 @@ impl<S: Masked> Neg for Pair<S> {
 impl<S: Masked> Add for Pair<S> {
     type Output = Self;
 
-    // what is not inlined does not compute in lanes
     #[inline(always)]
     fn add(self, other: Self) -> Self {
         let high = Self::sum(self.high, other.high);
         let low = Self::sum(self.low, other.low);
         let sum = Self::fast_sum(high.high, high.low + low.high);
-        Self::fast_sum(sum.high, low.low + sum.low)
+        Self::fast_sum(sum.high, low.low + sum.low).settled()
     }
 }
 
 impl<S: Masked> Sub for Pair<S> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -180,13 +186,14 @@ impl<S: Masked> Mul for Pair<S> {
     fn mul(self, other: Self) -> Self {
         let product = Self::product(self.high, other.high);
         let cross = self.high.fused(other.low, self.low * other.high);
-        Self::fast_sum(product.high, product.low + cross)
+        Self::fast_sum(product.high, product.low + cross).settled()
     }
 }
 
 impl<S: Masked> Div for Pair<S> {
     type Output = Self;
 
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
         // first × other, whose high part is subtracted exactly
@@ -200,7 +207,7 @@ impl<S: Masked> Div for Pair<S> {
 macro_rules! assigning {
     ($($operator:ident $function:ident $symbol:tt;)*) => {$(
         impl<S: Masked> $operator for Pair<S> {
-            #[inline]
+            #[inline(always)]
             fn $function(&mut self, other: Self) {
                 *self = *self $symbol other;
             }

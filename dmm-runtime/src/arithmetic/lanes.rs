@@ -5,6 +5,8 @@ use std::cmp::Ordering;
 use std::hint::black_box;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use pulp::NullaryFnOnce;
+
 use super::Scalar;
 use super::masked::{Mask, Masked};
 
@@ -24,6 +26,40 @@ impl<const L: usize> Lanes<L> {
     #[inline(always)]
     fn each(value: impl FnMut(usize) -> f64) -> Self {
         Self(from_fn(value))
+    }
+}
+
+/// The right to compute in lanes.
+///
+/// What is compiled for every processor of an architecture uses the least of them: x86-64 has
+/// vectors of two doubles and no fused operation. So the lanes are compiled for the processors
+/// since 2013 (AVX2 and FMA) besides, and used where they run on one. [`pulp`] makes that safe.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vectorised {
+    #[cfg(target_arch = "x86_64")]
+    level: pulp::x86::V3,
+}
+
+impl Vectorised {
+    /// It, if the processor has what it takes.
+    #[cfg(target_arch = "x86_64")]
+    pub(crate) fn new() -> Option<Self> {
+        pulp::x86::V3::try_new().map(|level| Self { level })
+    }
+
+    /// It, if the processor has what it takes.
+    #[cfg(not(target_arch = "x86_64"))]
+    pub(crate) fn new() -> Option<Self> {
+        cfg!(target_arch = "aarch64").then_some(Self {})
+    }
+
+    /// Does the work.
+    #[inline(always)]
+    pub(crate) fn run<Work: NullaryFnOnce>(self, work: Work) -> Work::Output {
+        #[cfg(target_arch = "x86_64")]
+        return self.level.vectorize(work);
+        #[cfg(not(target_arch = "x86_64"))]
+        return work.call();
     }
 }
 
@@ -74,7 +110,13 @@ impl<const L: usize> Mask<Lanes<L>> for LaneMask<L> {
 
 impl<const L: usize> Masked for Lanes<L> {
     type Mask = LaneMask<L>;
+    type Apart = Vectorised;
     const LANES: usize = L;
+
+    #[inline(never)]
+    fn apart<Work: NullaryFnOnce>(how: Vectorised, work: Work) -> Work::Output {
+        how.run(work)
+    }
 
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {

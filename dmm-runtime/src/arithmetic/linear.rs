@@ -19,7 +19,11 @@ const MANY: usize = 16;
 #[inline(always)]
 pub(crate) fn dot<S: Scalar, const N: usize>(a: &Vector<S, N>, b: &Vector<S, N>) -> S {
     if const { N < MANY } {
-        return (1..N).fold(a[0] * b[0], |sum, i| a[i].fused(b[i], sum));
+        let mut sum = a[0] * b[0];
+        for i in 1..N {
+            sum = a[i].fused(b[i], sum);
+        }
+        return sum;
     }
     let sum = |sum: S, i: usize| a[i].fused(b[i], sum);
     together::<S, N>(S::from_f64(0.0), sum, |a, b| a + b)
@@ -35,7 +39,11 @@ pub(crate) fn together<T: Copy, const N: usize>(
 ) -> T {
     const PARTS: usize = 4;
     if const { N < MANY } {
-        return (0..N).fold(start, with);
+        let mut all = start;
+        for i in 0..N {
+            all = with(all, i);
+        }
+        return all;
     }
     let mut parts = [start; PARTS];
     let whole = N - N % PARTS;

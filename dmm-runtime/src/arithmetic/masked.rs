@@ -1,6 +1,11 @@
 //! Decisions on scalars of which there may be several at once: a truth value for each lane takes the
 //! place of a condition, and a choice by it the place of a branch.
 
+use std::fmt::Debug;
+use std::ops::Range;
+
+use pulp::NullaryFnOnce;
+
 use super::error_free::{HAS_FUSED, split_error};
 use super::{Scalar, Vector};
 
@@ -8,8 +13,14 @@ use super::{Scalar, Vector};
 pub(crate) trait Masked: Scalar {
     /// What a comparison tells.
     type Mask: Mask<Self>;
+    /// What it takes to compute with them in another function.
+    type Apart: Copy + Debug;
     /// How many there are.
     const LANES: usize;
+
+    /// What work gives, by a function of its own, for code that is seldom needed. It is no closure, as
+    /// those are not inlined for certain.
+    fn apart<Work: NullaryFnOnce>(how: Self::Apart, work: Work) -> Work::Output;
 
     /// Changes the value in a lane.
     fn set_lane(&mut self, lane: usize, value: f64);
@@ -57,24 +68,39 @@ pub(crate) trait Mask<S>: Copy {
     where
         S: Scalar,
     {
-        vector(|i| self.select(one[i], other[i]))
+        vector!(|i| self.select(one[i], other[i]))
     }
 }
 
-/// The vector of `value(0)`, `value(1)`, …
+/// The vector of what an expression gives for each index: a loop in place, as closures are not inlined
+/// for certain and what is not inlined does not compute in lanes.
+macro_rules! vector {
+    (|$index:ident| $value:expr) => {{
+        let mut vector: $crate::arithmetic::Vector<_, _> =
+            $crate::arithmetic::filled($crate::arithmetic::Scalar::from_f64(0.0));
+        for $index in $crate::arithmetic::masked::indices(&vector) {
+            vector[$index] = $value;
+        }
+        vector
+    }};
+}
+pub(crate) use vector;
+
+/// Those of a vector.
 #[inline(always)]
-pub(crate) fn vector<S: Scalar, const K: usize>(value: impl Fn(usize) -> S) -> Vector<S, K> {
-    // a loop, as closures are not inlined for certain
-    let mut vector = Vector::from_element(S::from_f64(0.0));
-    for i in 0..K {
-        vector[i] = value(i);
-    }
-    vector
+pub(crate) fn indices<S, const K: usize>(_: &Vector<S, K>) -> Range<usize> {
+    0..K
 }
 
 impl Masked for f64 {
     type Mask = bool;
+    type Apart = ();
     const LANES: usize = 1;
+
+    #[inline(never)]
+    fn apart<Work: NullaryFnOnce>((): (), work: Work) -> Work::Output {
+        work.call()
+    }
 
     #[inline(always)]
     fn set_lane(&mut self, _lane: usize, value: f64) {

@@ -29,3 +29,10 @@ pub use time::Time;
 pub type Vector<S, const N: usize> = nalgebra::SVector<S, N>;
 /// A matrix of R rows and C columns.
 pub type Matrix<S, const R: usize, const C: usize> = nalgebra::SMatrix<S, R, C>;
+
+/// The matrix or vector of which every entry is `value`; not by a function of nalgebra, as what is not
+/// inlined for certain does not compute in lanes.
+#[inline(always)]
+pub(crate) fn filled<S: Copy, const R: usize, const C: usize>(value: S) -> Matrix<S, R, C> {
+    Matrix::from_array_storage(nalgebra::ArrayStorage([[value; R]; C]))
+}

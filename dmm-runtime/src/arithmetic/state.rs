@@ -27,19 +27,24 @@ impl<const N: usize, S: Scalar> State<N, S> {
     #[inline(always)]
     #[must_use]
     pub fn after(&self, increment: &Vector<S, N>) -> Self {
-        let (x, error) = two_sum(self.x, *increment);
-        Self {
-            x,
-            remainder: self.remainder + error,
+        let mut after = *self;
+        for i in 0..N {
+            let (sum, error) = two_sum(self.x[i], increment[i]);
+            after.x[i] = sum;
+            after.remainder[i] = self.remainder[i] + error;
         }
+        after
     }
 
     /// The same state with a remainder of at most half a unit in the last place of x.
     #[inline(always)]
     #[must_use]
     pub fn normalised(&self) -> Self {
-        let (x, remainder) = two_sum(self.x, self.remainder);
-        Self { x, remainder }
+        let mut normalised = *self;
+        for i in 0..N {
+            (normalised.x[i], normalised.remainder[i]) = two_sum(self.x[i], self.remainder[i]);
+        }
+        normalised
     }
 
     /// The state rounded once.

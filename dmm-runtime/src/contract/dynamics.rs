@@ -88,7 +88,11 @@ pub trait Dynamics<S: Scalar, const N: usize, const M: usize>: Clone {
     fn rate(&self, guard: usize, t: S, x: &Vector<S, N>) -> S {
         let (by_time, gradient) = self.guards().switching_gradient(guard, t, x);
         let field = self.vector_field(t, x);
-        (0..N).fold(by_time, |sum, i| sum + gradient[i] * field[i])
+        let mut rate = by_time;
+        for i in 0..N {
+            rate += gradient[i] * field[i];
+        }
+        rate
     }
 
     /// The dynamics with guards that are positive at (t, x), of those that keep a sign.

@@ -10,9 +10,9 @@
 use super::kernel::{Job, Kernel, LONGEST, ORDER, Settings};
 use super::register::{Leave, Register, WIDTH, Wide};
 use super::trajectory::Trajectory;
-use super::vectorised::{Vectorised, Work};
 use super::{Member, Outcome};
 use crate::arithmetic::Scalar;
+use crate::arithmetic::lanes::Vectorised;
 use crate::contract::System;
 use crate::error::Error;
 use crate::events::ends::Decay;
@@ -71,9 +71,26 @@ impl Queues {
     }
 }
 
+/// The kernel in a region.
+struct Work<'a, Sys: System<N>, const N: usize> {
+    system: &'a Sys,
+    region: Sys::Region,
+    parameters: &'a [Wide],
+    kernel: Kernel<'a, N>,
+}
+
+impl<Sys: System<N>, const N: usize> pulp::NullaryFnOnce for Work<'_, Sys, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let parameters = self.parameters;
+        (self.system).visit_with(self.region, |index| parameters[index], self.kernel);
+    }
+}
+
 /// A batch under way.
 pub(super) struct Batch<'a, Sys: System<N>, const N: usize> {
-    vectorised: Vectorised,
     method: &'a Taylor,
     /// Of which the members differ in parameters.
     system: &'a Sys,
@@ -138,10 +155,10 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         let metadata = system.metadata();
         let (interfaces, parameters) = (metadata.interfaces.len(), metadata.parameters.len());
         let mut batch = Self {
-            vectorised,
             method,
             system,
             settings: Settings {
+                vectorised,
                 end: t_end,
                 fraction,
                 decay: Decay::new(fraction),
@@ -187,7 +204,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             let Some(of_lanes) = self.system.region(region) else {
                 return;
             };
-            self.vectorised.run::<Sys, N>(Work {
+            self.settings.vectorised.run(Work {
                 system: self.system,
                 region: of_lanes,
                 parameters: &self.lanes,
@@ -197,13 +214,14 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                     job,
                 },
             });
-            if let Job::Cross(interface) = job
+            let crossed = self.register.crossed();
+            if let Some(interface) = crossed
                 && let Some(next) = self.enter(region, interface)
             {
                 (region, job) = (next, Job::Enter(Some(interface)));
                 continue;
             }
-            let refills = !matches!(job, Job::Cross(_));
+            let refills = crossed.is_none() && !matches!(job, Job::Cross(_));
             let mut used = 0;
             for lane in 0..WIDTH {
                 if self.register.is_idle(lane) {
@@ -286,6 +304,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             let number = self.register.slots[lane];
             let trajectory = &mut self.trajectories[number];
             self.register.pass_on(lane, trajectory);
+            trajectory.entered();
             if let Err(error) = trajectory.cross(interface, other) {
                 self.register.store(lane, trajectory);
                 self.register.set_idle(lane, true);

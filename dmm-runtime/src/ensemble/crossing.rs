@@ -3,7 +3,7 @@
 use super::kernel::Run;
 use super::register::Wide;
 use crate::arithmetic::Scalar;
-use crate::arithmetic::masked::Mask;
+use crate::arithmetic::masked::{Mask, vector};
 use crate::contract::Dynamics;
 use crate::level::{Found, GuardPoint};
 
@@ -25,9 +25,9 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let increment = |elapsed| self.increment(elapsed);
         let ((time, state), located) =
             GuardPoint::near(self.dynamics, &found, start, tau, increment, used);
-        let increment = state.x - self.register.state.x;
+        let increment = vector!(|i| state.x[i] - self.register.state.x[i]);
         let how = (self.settings.corrects, located);
-        let level = self.register.level();
+        let level = self.register.level(self.settings.vectorised);
         let near = (time, &state);
         let (there, crossed) =
             GuardPoint::settled(near, self.dynamics, &level, interface, &increment, how);

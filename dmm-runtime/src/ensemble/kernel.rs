@@ -3,9 +3,10 @@
 use std::hint::black_box;
 
 use super::register::{Register, Wide, WideMask};
+use crate::arithmetic::lanes::Vectorised;
 use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
-use crate::arithmetic::{Scalar, State, Time};
+use crate::arithmetic::{Scalar, State, Time, filled};
 use crate::contract::{Dynamics, DynamicsVisitor, Guards, Vector};
 use crate::events::ends::{Decay, Ends};
 use crate::expansion::jet::{FirstSeries, GuardsUnrolled, expand, first_switching};
@@ -28,7 +29,8 @@ pub(super) const LONGEST: f64 = 0.4;
 /// What is to be done.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Job {
-    /// Steps, until a lane needs attention.
+    /// Steps, until a lane needs attention; if all of them come to an interface together, they move
+    /// to it.
     Step,
     /// The same from the entry into the region, which may have been at an interface.
     Enter(Option<usize>),
@@ -39,6 +41,7 @@ pub(super) enum Job {
 /// The same for all trajectories.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings {
+    pub(super) vectorised: Vectorised,
     pub(super) end: f64,
     /// The part of the radius of convergence that a step takes.
     pub(super) fraction: f64,
@@ -72,11 +75,18 @@ impl<const N: usize> DynamicsVisitor<N, Wide> for Kernel<'_, N> {
         }
         loop {
             run.expand();
-            if let Job::Cross(interface) = self.job {
+            let crossed = if let Job::Cross(interface) = self.job {
+                Some(interface)
+            } else if run.step(&entry) {
+                match run.register.crossed_by_all() {
+                    None => return,
+                    together => together,
+                }
+            } else {
+                None
+            };
+            if let Some(interface) = crossed {
                 return run.cross(interface);
-            }
-            if run.step(&entry) {
-                return;
             }
             entry = Entry::default();
         }
@@ -126,12 +136,13 @@ impl<const N: usize> Register<N> {
 
     /// The level of the conserved quantities.
     #[inline(always)]
-    pub(super) fn level<const M: usize>(&self) -> Level<N, M, Wide> {
+    pub(super) fn level<const M: usize>(&self, apart: Vectorised) -> Level<N, M, Wide> {
         let [reference, remainder, scale] = &self.level;
         Level {
-            reference: vector(|m| reference[m]),
-            remainder: vector(|m| remainder[m]),
-            scale: vector(|m| scale[m]),
+            reference: vector!(|m| reference[m]),
+            remainder: vector!(|m| remainder[m]),
+            scale: vector!(|m| scale[m]),
+            apart,
         }
     }
 
@@ -165,7 +176,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     #[inline(always)]
     fn enter(&mut self, interface: Option<usize>) -> Entry {
         let Register { time, state, .. } = &*self.register;
-        let level = Level::enter(self.dynamics, *time, state, None);
+        let level = Level::in_lanes(self.dynamics, *time, state, self.settings.vectorised);
         let barred = interface.map(|interface| {
             let rate = self.dynamics.rate(interface, time.value, &state.x);
             let inwards = Wide::from_f64(self.sign(interface)) * rate;
@@ -212,8 +223,11 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         if enters {
             // there may have been no step before
             let largest = |k: usize| {
-                let sizes = series.iter().map(|c| c[k].abs());
-                sizes.fold(n(0.0), Masked::max)
+                let mut largest = n(0.0);
+                for c in series {
+                    largest = largest.max(c[k].abs());
+                }
+                largest
             };
             let none = before.above(n(0.0)).not();
             let size = largest(0).above(n(0.0)).select(largest(0), largest(1));
@@ -235,7 +249,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     #[inline(always)]
     pub(super) fn increment(&self, h: Wide) -> Vector<Wide, N> {
         // a loop, as closures are not inlined for certain
-        let mut sum: Vector<Wide, N> = Vector::from_element(Wide::from_f64(0.0));
+        let mut sum: Vector<Wide, N> = filled(Wide::from_f64(0.0));
         for (sum, series) in sum.iter_mut().zip(self.series.as_ref()) {
             *sum = increment(series, h).settled();
         }
@@ -263,8 +277,8 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             halvings += 1;
             size = near.select(n(0.5) * size, size);
         };
-        let mut level = self.register.level();
-        let displacement = state.x - self.register.state.x;
+        let mut level = self.register.level(self.settings.vectorised);
+        let displacement = vector!(|i| state.x[i] - self.register.state.x[i]);
         let how = (self.settings.corrects, used);
         state = level.reached(self.dynamics, time, state, &displacement, how);
         let stands = time.value.equals(start.value);

@@ -9,11 +9,11 @@ mod kernel;
 mod pool;
 mod register;
 mod trajectory;
-mod vectorised;
 
 use std::ops::ControlFlow;
 use std::thread;
 
+use crate::arithmetic::lanes::Vectorised;
 use crate::contract::{Dynamics, DynamicsVisitor, Guards, InitialState, System, Vector};
 use crate::driver::{InitialValueProblem, Integrator};
 use crate::error::Error;
@@ -23,7 +23,6 @@ use crate::output::Observer;
 use crate::output::{End, Halted};
 use pool::Pool;
 use register::WIDTH;
-use vectorised::Vectorised;
 
 /// A member of an ensemble: an initial value problem with its parameters.
 #[derive(Clone, Debug)]
@@ -177,8 +176,10 @@ impl<Met: Method> Ensemble<Met> {
             let system = &first.system;
             let metadata = system.metadata();
             let is_plain = metadata.conditions.is_empty() && !metadata.has_constants();
+            let mut regions = metadata.regions.iter();
+            let fits = regions.all(|region| region.conserved.len() <= N);
             let may = self.lanes && N <= MOST_STATES && is_plain;
-            may && follow_state(system) && Vectorised::fits(system)
+            may && fits && follow_state(system)
         });
         let vectorised = match (in_lanes, self.method.in_lanes()) {
             (true, Some(settings)) => {

@@ -128,12 +128,34 @@ impl<const N: usize> Register<N> {
         marked.iter().sum::<f64>() != 0.0
     }
 
+    /// The interface that all lanes in use cross in their next step.
+    #[inline(always)]
+    pub(super) fn crossed_by_all(&self) -> Option<usize> {
+        let first = (0..WIDTH).find(|&lane| !self.is_idle(lane))?;
+        let crosses = self.leave.equals(Wide::from_f64(Leave::CROSSES));
+        let same = self
+            .interface
+            .equals(Wide::from_f64(self.interface.0[first]));
+        let others = self.used().not();
+        let all = crosses.and(same).or(others).all();
+        all.then_some(self.interface.0[first] as usize)
+    }
+
     /// Notes which lanes have reached the interface; the others need a closer look.
     #[inline(always)]
     pub(super) fn note_crossed(&mut self, crossed: WideMask, interface: usize) {
         let mark = Wide::from_f64;
         self.interface = mark(interface as f64);
         self.leave = crossed.select(mark(Leave::CROSSED), mark(Leave::HARD));
+    }
+
+    /// The interface that the first lane in use has come to.
+    pub(super) fn crossed(&self) -> Option<usize> {
+        let first = (0..WIDTH).find(|&lane| !self.is_idle(lane))?;
+        match self.leave(first) {
+            Leave::Crossed(interface) => Some(interface),
+            _ => None,
+        }
     }
 
     /// Why a lane in use needs attention.

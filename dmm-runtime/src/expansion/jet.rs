@@ -157,15 +157,11 @@ where
     F: Dynamics<S, N, M>,
     U: Unroll,
 {
-    let states = std::array::from_fn(|i| {
-        std::array::from_fn(|k| {
-            if k < P {
-                solution[i][k]
-            } else {
-                S::from_f64(0.0)
-            }
-        })
-    });
+    let mut states = [[S::from_f64(0.0); FIRST]; N];
+    for (state, series) in states.iter_mut().zip(solution) {
+        let count = FIRST.min(P);
+        state[..count].copy_from_slice(&series[..count]);
+    }
     let mut first = First::<S, F, N, M> {
         dynamics,
         t,

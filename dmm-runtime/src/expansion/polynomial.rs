@@ -11,28 +11,30 @@ use crate::arithmetic::masked::Masked;
 pub(crate) fn increment<S: Scalar, const P: usize>(c: &[S; P], h: S) -> S {
     let h2 = h * h;
     let h4 = h2 * h2;
-    let block = |first: usize| {
-        let at = |j: usize| if j < P { c[j] } else { S::from_f64(0.0) };
-        match P - first {
-            1 => c[first],
-            2 => at(first + 1).fused(h, c[first]),
-            3 => at(first + 2).fused(h2, at(first + 1).fused(h, c[first])),
-            _ => {
-                let high = at(first + 3).fused(h, at(first + 2));
-                high.fused(h2, at(first + 1).fused(h, c[first]))
-            }
-        }
-    };
-    let mut sums = [block(1), S::from_f64(0.0)];
+    let powers = [h, h2];
+    let mut sums = [block(c, 1, powers), S::from_f64(0.0)];
     let mut power = S::from_f64(1.0);
     let mut number = 1;
     while 4 * number + 1 < P {
         power *= h4;
         let which = number % 2;
-        sums[which] = block(4 * number + 1).fused(power, sums[which]);
+        sums[which] = block(c, 4 * number + 1, powers).fused(power, sums[which]);
         number += 1;
     }
     (sums[0] + sums[1]) * h
+}
+
+/// Σ c₍f₊ⱼ₎ hʲ over j < 4, with f the `first`, by the powers h and h².
+// a function, as closures are not inlined for certain, and what is not does not compute in lanes
+#[inline(always)]
+fn block<S: Scalar, const P: usize>(c: &[S; P], first: usize, [h, h2]: [S; 2]) -> S {
+    match &c[first..] {
+        [c0] => *c0,
+        [c0, c1] => c1.fused(h, *c0),
+        [c0, c1, c2] => c2.fused(h2, c1.fused(h, *c0)),
+        [c0, c1, c2, c3, ..] => c3.fused(h, *c2).fused(h2, c1.fused(h, *c0)),
+        [] => S::from_f64(0.0),
+    }
 }
 
 /// (p(h), p′(h))

@@ -2,8 +2,8 @@
 //! the level.
 
 use super::weights::Weights;
-use crate::arithmetic::Scalar;
-use crate::arithmetic::masked::{Mask, Masked, vector};
+use crate::arithmetic::masked::{Mask, Masked};
+use crate::arithmetic::{Scalar, filled};
 use crate::contract::{Matrix, Vector};
 
 /// Where what a row adds to those before it is a smaller part of its square, the products in ΛWΛᵀ
@@ -25,7 +25,7 @@ pub(super) struct Factors<S: Masked, const N: usize, const M: usize> {
 
 impl<const N: usize, const M: usize, S: Masked> Factors<S, N, M> {
     /// Those of the first `count` rows of Λ.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(
         weights: &Weights<N, S>,
         (multiplier, count): (&Matrix<S, M, N>, usize),
@@ -38,7 +38,7 @@ impl<const N: usize, const M: usize, S: Masked> Factors<S, N, M> {
             }
         }
         let mut lower = products(multiplier, &weighted);
-        let mut inverses = vector::<S, M>(|_| S::from_f64(0.0));
+        let mut inverses = filled(S::from_f64(0.0));
         let mut independent = S::Mask::all_are(true);
         let mut steep = independent;
         for k in 0..count.min(M) {
@@ -72,7 +72,7 @@ impl<const N: usize, const M: usize, S: Masked> Factors<S, N, M> {
     }
 
     /// The displacement −WΛᵀ(ΛWΛᵀ)⁻¹ r.
-    #[inline]
+    #[inline(always)]
     pub(super) fn displacement(&self, residual: &Vector<S, M>) -> Vector<S, N> {
         let mut solution = *residual;
         for k in 0..M {
@@ -86,27 +86,29 @@ impl<const N: usize, const M: usize, S: Masked> Factors<S, N, M> {
                 solution[k] = (-self.lower[(later, k)]).fused(solution[later], solution[k]);
             }
         }
-        vector(|i| {
-            let parts = (0..M).map(|m| (self.weighted[(m, i)], solution[m]));
-            let zero = S::from_f64(0.0);
-            parts.fold(zero, |sum, (row, part)| (-row).fused(part, sum))
-        })
+        let mut displacement = filled(S::from_f64(0.0));
+        for i in 0..N {
+            for m in 0..M {
+                displacement[i] = (-self.weighted[(m, i)]).fused(solution[m], displacement[i]);
+            }
+        }
+        displacement
     }
 }
 
 impl<const N: usize, S: Masked> Weights<N, S> {
     /// The displacement that takes the residual of `count` quantities off, and where Λ is steep beyond
-    /// a `bound`.
+    /// a `bound`, in the lanes that are `used`.
     #[inline(always)]
     pub(super) fn solved<const M: usize>(
         &self,
         (multiplier, count): (&Matrix<S, M, N>, usize),
         residual: &Vector<S, M>,
-        bound: &Vector<S, M>,
+        (bound, used): (&Vector<S, M>, S::Mask),
     ) -> (Vector<S, N>, S::Mask) {
         let fast = Factors::new(self, (multiplier, count), bound);
         let displacement = fast.displacement(residual);
-        if fast.independent.all() {
+        if !fast.independent.not().and(used).any() {
             return (displacement, fast.steep);
         }
         let (slow, steep) = self.by_lane(multiplier, residual, bound, |projection, residual, _| {
@@ -125,7 +127,7 @@ fn products<S: Scalar, const N: usize, const M: usize>(
     multiplier: &Matrix<S, M, N>,
     weighted: &Matrix<S, M, N>,
 ) -> Matrix<S, M, M> {
-    let mut products = Matrix::from_element(S::from_f64(0.0));
+    let mut products = filled(S::from_f64(0.0));
     for i in 0..N {
         for b in 0..M {
             for a in b..M {

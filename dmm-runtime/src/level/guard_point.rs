@@ -12,7 +12,7 @@ use super::reached::select;
 use super::{Level, Weights, switching_in_pairs};
 use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
-use crate::arithmetic::{State, Time};
+use crate::arithmetic::{State, Time, filled};
 use crate::contract::{Dynamics, Guards, Vector};
 
 /// Corrections of a crossing next to it.
@@ -94,8 +94,11 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
     fn displacement(&self, off: &Vector<S, N>) -> (Vector<S, N>, S) {
         // which does not wait for `off`
         let inverse = S::from_f64(1.0) / self.rate;
-        let delta = -(self.value + dot(&self.gradient, off)) * inverse;
-        (vector(|i| off[i] + self.field[i] * delta), delta)
+        let delta = (-(self.value + dot(&self.gradient, off)) * inverse).settled();
+        (
+            vector!(|i| (off[i] + self.field[i] * delta).settled()),
+            delta,
+        )
     }
 
     /// Moves the `used` lanes.
@@ -150,7 +153,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             // at an end of the bracket the root may be a rounding error outside
             let is_there = delta.abs().at_most(small);
             let other = is_there.select(elapsed, n(0.5) * (lower + upper));
-            elapsed = open.select(within.select(next, other), elapsed);
+            elapsed = open.select(within.select(next, other), elapsed).settled();
             let is_last = is_there.or(within.and(delta.abs().at_most(close)));
             open = open.and(is_last.not());
         }
@@ -220,7 +223,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         /// One of this part has one that is below the rounding errors of pairs.
         const SMALLEST: f64 = 1e-15;
         let n = S::from_f64;
-        let none: Vector<S, N> = vector(|_| n(0.0));
+        let none: Vector<S, N> = filled(n(0.0));
         let x = state.x;
         let weights = Weights::new(&x, increment);
         let whole = dot(&x, &x) + dot(increment, increment);
@@ -230,7 +233,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
             let off = if corrects {
-                level.correction(dynamics, point.time, &point.state, &weights)
+                level.correction(dynamics, point.time, &point.state, (&weights, moves))
             } else {
                 none
             };
@@ -253,7 +256,8 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             let off = if corrects {
                 let (_, multiplier) = dynamics.multiplier(point.time.value, &point.state.x);
                 let residual = level.residual(dynamics, point.time, &point.state);
-                level.towards((&multiplier, dynamics.quantities()), &residual, &weights)
+                let rows = (&multiplier, dynamics.quantities());
+                level.towards(rows, &residual, (&weights, moves))
             } else {
                 none
             };

@@ -21,7 +21,7 @@ pub(super) fn in_pairs<S: Masked, const N: usize, const M: usize, F: Dynamics<S,
     if const { N > MOST_IN_PAIRS } {
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let remainder = remainder(dynamics, time, state);
-        return vector(|m| Pair::sum(psi[m], dot(&row(&multiplier, m), &remainder)));
+        return vector!(|m| Pair::sum(psi[m], dot(&row(&multiplier, m), &remainder)));
     }
     // what is not inlined does not compute in lanes
     if S::LANES == 1 {
@@ -68,7 +68,7 @@ fn pairs<S: Masked, const N: usize>(
 ) -> (Pair<S>, Vector<Pair<S>, N>) {
     (
         Pair::new(time.value, time.remainder),
-        vector(|i| Pair::new(state.x[i], state.remainder[i])),
+        vector!(|i| Pair::new(state.x[i], state.remainder[i])),
     )
 }
 
@@ -84,5 +84,5 @@ pub(super) fn remainder<S: Masked, const N: usize, const M: usize, F: Dynamics<S
         return state.remainder;
     }
     let field = dynamics.vector_field(time.value, &state.x);
-    vector(|i| state.remainder[i] - field[i] * time.remainder)
+    vector!(|i| state.remainder[i] - field[i] * time.remainder)
 }

@@ -1,5 +1,7 @@
 //! The end of a step, put back on the level.
 
+use pulp::NullaryFnOnce;
+
 use super::factors::Factors;
 use super::weights::COARSE;
 use super::{Level, Weights, little, remainder, row};
@@ -30,7 +32,12 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         if M == 1 {
             return self.reached_at_once(dynamics, time, state, (&weights, used));
         }
-        apart::<S, _>(|| self.reached_by_factors(dynamics, time, state, (&weights, used)))
+        if S::LANES == 1 {
+            return S::apart(self.apart, || {
+                self.reached_by_factors(dynamics, time, state, (&weights, used))
+            });
+        }
+        self.reached_by_factors(dynamics, time, state, (&weights, used))
     }
 
     /// The same for several quantities, where each adds to the slope of the others. What a large
@@ -89,7 +96,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             return self.reached_by_steps(dynamics, time, state, (weights, flat));
         }
         let inverse = S::from_f64(1.0) / square;
-        let gain: Vector<S, N> = vector(|i| weighted[i] * inverse);
+        let gain: Vector<S, N> = vector!(|i| weighted[i] * inverse);
         let off = remainder(dynamics, time, &state);
         let first = self.rounded_residual(&psi, &multiplier, &off)[0];
         let reached = less(state, &gain, first);
@@ -142,8 +149,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         (reached, left)
     }
 
-    /// The same by one correction after the other, while the square of the last one is no rounding
-    /// error; in the lanes that are `used`.
+    /// The same by one correction after the other, in the lanes that are `used`.
     #[inline(always)]
     fn reached_by_steps<F: Dynamics<S, N, M>>(
         &self,
@@ -152,21 +158,38 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         state: State<N, S>,
         how: (&Weights<N, S>, S::Mask),
     ) -> State<N, S> {
-        apart::<S, _>(|| self.step_by_step(dynamics, time, state, how))
+        let steps = StepByStep {
+            level: self,
+            dynamics,
+            place: (time, &state),
+            how,
+        };
+        S::apart(self.apart, steps)
     }
+}
+
+/// Corrections, while the square of the last one is no rounding error.
+struct StepByStep<'a, F, const N: usize, const M: usize, S: Masked> {
+    level: &'a Level<N, M, S>,
+    dynamics: &'a F,
+    place: (Time<S>, &'a State<N, S>),
+    how: (&'a Weights<N, S>, S::Mask),
+}
+
+impl<F: Dynamics<S, N, M>, const N: usize, const M: usize, S: Masked> NullaryFnOnce
+    for StepByStep<'_, F, N, M, S>
+{
+    type Output = State<N, S>;
 
     #[inline(always)]
-    fn step_by_step<F: Dynamics<S, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time<S>,
-        mut state: State<N, S>,
-        (weights, mut used): (&Weights<N, S>, S::Mask),
-    ) -> State<N, S> {
+    fn call(self) -> State<N, S> {
         /// The error falls to its square each time, and then to the part that damping leaves.
         const MOST: u32 = 9;
+        let (time, mut state) = (self.place.0, *self.place.1);
+        let (weights, mut used) = self.how;
         for _ in 0..MOST {
-            let displacement = self.correction(dynamics, time, &state, weights);
+            let how = (weights, used);
+            let displacement = self.level.correction(self.dynamics, time, &state, how);
             state = select(used, &displaced(state, &displacement), &state);
             used = used.and(weights.are_left_by(&displacement));
             if !used.any() {
@@ -186,21 +209,6 @@ fn bend<S: Masked>(twice: S, next: S) -> S {
     let ratio = twice * next;
     let is_small = S::from_f64(LARGEST).above(ratio.abs());
     is_small.select(ratio, S::from_f64(0.0))
-}
-
-/// What `work` gives, for one lane by a function of its own; what is not inlined does not compute in
-/// lanes.
-#[inline(always)]
-fn apart<S: Masked, T>(work: impl FnOnce() -> T) -> T {
-    #[inline(never)]
-    fn outlined<T>(work: impl FnOnce() -> T) -> T {
-        work()
-    }
-    if S::LANES == 1 {
-        outlined(work)
-    } else {
-        work()
-    }
 }
 
 /// The state without `gain` times a residual.

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use crate::arithmetic::MinimalNorm;
 use crate::arithmetic::linear::together;
 use crate::arithmetic::masked::{Mask, Masked, vector};
+use crate::arithmetic::{MinimalNorm, filled};
 use crate::contract::{Matrix, Vector};
 
 /// Where squares of sizes and the products that they enter are far from the ends of the range of
@@ -32,7 +32,7 @@ impl<const N: usize, S: Masked> Weights<N, S> {
     #[inline(always)]
     pub(crate) fn new(x: &Vector<S, N>, displacement: &Vector<S, N>) -> Self {
         let one = S::from_f64(1.0);
-        let squares = vector(|i| displacement[i].fused(displacement[i], x[i] * x[i]));
+        let squares = vector!(|i| displacement[i].fused(displacement[i], x[i] * x[i]));
         let least = S::from_f64(f64::MIN_POSITIVE);
         let larger = |largest: S, i: usize| largest.max(squares[i]);
         let largest = together::<S, N>(least, larger, S::max);
@@ -49,7 +49,7 @@ impl<const N: usize, S: Masked> Weights<N, S> {
         }
         let inverse = one / largest;
         Self {
-            squares: vector(|i| usual.select(squares[i], squares[i] * inverse)),
+            squares: vector!(|i| usual.select(squares[i], squares[i] * inverse)),
             largest: usual.select(largest, one),
             unit: usual.select(one, largest),
         }
@@ -64,7 +64,7 @@ impl<const N: usize, S: Masked> Weights<N, S> {
     /// wᵢ² Λᵢ
     #[inline(always)]
     pub(super) fn times(&self, row: &Vector<S, N>) -> Vector<S, N> {
-        vector(|i| row[i] * self.squares[i])
+        vector!(|i| row[i] * self.squares[i])
     }
 
     /// The displacement that takes a residual off by Λ with column i times wᵢ, as `value` has it, and
@@ -78,15 +78,15 @@ impl<const N: usize, S: Masked> Weights<N, S> {
         bound: &Vector<S, M>,
         value: impl Fn(&MinimalNorm<f64, N, M>, &Vector<f64, M>, &Vector<f64, M>) -> Vector<f64, N>,
     ) -> (Vector<S, N>, S::Mask) {
-        let mut results: Vector<S, N> = vector(|_| S::from_f64(0.0));
+        let mut results: Vector<S, N> = filled(S::from_f64(0.0));
         let mut steep = S::from_f64(0.0);
         for lane in 0..S::LANES {
-            let sizes: Vector<f64, N> = vector(|i| self.squares[i].lane(lane).sqrt());
+            let sizes: Vector<f64, N> = vector!(|i| self.squares[i].lane(lane).sqrt());
             let scaled = Matrix::from_fn(|m, i| multiplier[(m, i)].lane(lane) * sizes[i]);
             let projection = MinimalNorm::new(&scaled, &scaled);
-            let bound = vector(|m| bound[m].lane(lane));
+            let bound = vector!(|m| bound[m].lane(lane));
             steep.set_lane(lane, f64::from(u8::from(projection.is_steep(&bound))));
-            let result = value(&projection, &vector(|m| residual[m].lane(lane)), &bound);
+            let result = value(&projection, &vector!(|m| residual[m].lane(lane)), &bound);
             for i in 0..N {
                 results[i].set_lane(lane, -(result[i] * sizes[i]));
             }
@@ -104,9 +104,11 @@ impl<const N: usize, S: Masked> Weights<N, S> {
     #[inline(always)]
     pub(super) fn are_left_by_both(&self, one: &Vector<S, N>, other: &Vector<S, N>) -> S::Mask {
         let coarse = S::from_f64(COARSE * COARSE) * self.unit;
-        (0..N).fold(S::Mask::all_are(false), |any, i| {
+        let mut any = S::Mask::all_are(false);
+        for i in 0..N {
             let product = (one[i] * other[i]).abs();
-            any.or(product.above(coarse * self.squares[i]))
-        })
+            any = any.or(product.above(coarse * self.squares[i]));
+        }
+        any
     }
 }

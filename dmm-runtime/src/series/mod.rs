@@ -328,18 +328,27 @@ pub fn power<S: Scalar, K: Order, const P: usize>(
     inverse_base: S,
 ) -> S {
     let k = k.get();
-    let term = |sum: S, j: usize| {
-        let weight = a * S::from_f64((k - j) as f64) - S::from_f64(j as f64);
-        (weight * w[j]).fused(u[k - j], sum)
-    };
     let mut sum = S::from_f64(0.0);
     if k.is_multiple_of(2) {
-        sum = term(sum, k / 2);
+        sum = power_term(k, k / 2, [u, w], a, sum);
     }
     for j in (1..k.div_ceil(2)).rev() {
-        sum = term(term(sum, j), k - j);
+        sum = power_term(k, k - j, [u, w], a, power_term(k, j, [u, w], a, sum));
     }
-    term(sum, 0) * (inverse_base * inverse(k))
+    power_term(k, 0, [u, w], a, sum) * (inverse_base * inverse(k))
+}
+
+/// A sum with (a (k − j) − j) wⱼ uₖ₋ⱼ.
+#[inline(always)]
+fn power_term<S: Scalar, const P: usize>(
+    k: usize,
+    j: usize,
+    [u, w]: [&[S; P]; 2],
+    a: S,
+    sum: S,
+) -> S {
+    let weight = a * S::from_f64((k - j) as f64) - S::from_f64(j as f64);
+    (weight * w[j]).fused(u[k - j], sum)
 }
 
 /// Coefficient k ≥ 1 of ∫ v du from d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …

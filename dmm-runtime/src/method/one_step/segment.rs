@@ -92,7 +92,7 @@ pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<
     const MOST_CORRECTIONS: u32 = 4;
     let weights = Weights::new(&state.x, increment);
     let before = *state;
-    let mut displacement = level.correction(dynamics, time, state, &weights);
+    let mut displacement = level.correction(dynamics, time, state, (&weights, true));
     state.remainder += displacement;
     if Map::CONSERVES {
         return;
@@ -102,7 +102,7 @@ pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<
             break;
         }
         *state = state.normalised();
-        displacement = level.correction(dynamics, time, state, &weights);
+        displacement = level.correction(dynamics, time, state, (&weights, true));
         state.remainder += displacement;
     }
     *state = state.normalised();
