@@ -8,28 +8,33 @@
 //!
 //! The program runs itself under `valgrind --tool=callgrind` from a problem's initial value to
 //! two end times, and divides the difference of the counts by that of the steps: what is left
-//! is the cost of a step with its share of the transitions, without that of starting.
+//! is the cost of a step with its share of the transitions, without that of starting. Of an ensemble
+//! in lanes, all of whose members are alike, it is that of one member.
 //!
 //! Counts depend on the compiler, whose version the record names, and on the platform's
 //! mathematical library, which is told to use no instructions that not every machine has.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 use clap::Parser;
 use dmm_problems::method::{Control, MethodName};
-use dmm_problems::problem::{Problem, Run};
+use dmm_problems::problem::{Parallelism, Problem, Run, Start};
 use dmm_problems::registry;
 use serde::{Deserialize, Serialize};
 
-/// What is measured: a scheme and, if it takes one, its tolerance.
-const MEASURED: [(MethodName, Option<f64>); 4] = [
-    (MethodName::Symmetric, None),
-    (MethodName::Taylor, Some(1e-6)),
-    (MethodName::Taylor, Some(1e-12)),
-    (MethodName::Best, Some(1e-12)),
+/// What is measured: a scheme and, if it takes one, its tolerance; by how many trajectories at once.
+const MEASURED: [(MethodName, Option<f64>, usize); 5] = [
+    (MethodName::Symmetric, None, 1),
+    (MethodName::Taylor, Some(1e-6), 1),
+    (MethodName::Taylor, Some(1e-12), 1),
+    (MethodName::Best, Some(1e-12), 1),
+    (MethodName::Taylor, Some(1e-12), 16),
 ];
+/// Systems of more states are not integrated in lanes.
+const MOST_STATES_IN_LANES: usize = 8;
 /// More instructions than recorded by this part are a slowdown.
 const ALLOWED: f64 = 0.03;
 /// Steps until the two end times, if there are so many.
@@ -92,9 +97,37 @@ fn run_until(place: &str, problems: &[String]) -> Outcome<ExitCode> {
     let (name, measured) = (problems.first(), MEASURED.get(place.parse::<usize>()?));
     let (name, measured) = name.zip(measured).ok_or("nothing to run")?;
     let problem = registry::find(name)?;
-    let run = run_of(&problem, *measured, t_end.parse()?);
-    problem.integrate_silently(&run)?;
+    let (method, tolerance, trajectories) = *measured;
+    let run = run_of(&problem, (method, tolerance), t_end.parse()?);
+    if trajectories == 1 {
+        problem.integrate_silently(&run)?;
+    } else {
+        integrate_together(&problem, &run, trajectories)?;
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+/// So many trajectories from the same start, in lanes.
+fn integrate_together(problem: &Problem, run: &Run, trajectories: usize) -> Outcome<()> {
+    let parallelism = Parallelism {
+        threads: Some(1),
+        lanes: true,
+    };
+    let start = Start {
+        parameters: problem
+            .parameters()
+            .iter()
+            .map(|(_, value)| *value)
+            .collect(),
+        initial: run.initial.clone(),
+    };
+    let mut starts = std::iter::repeat_n(start, trajectories);
+    let mut error = None;
+    problem.integrate_all(run, parallelism, &mut starts, &mut |outcome| {
+        error = error.take().or(outcome.error);
+        ControlFlow::Continue(())
+    });
+    error.map_or(Ok(()), |error| Err(error.into()))
 }
 
 fn run_of(problem: &Problem, (method, tolerance): (MethodName, Option<f64>), t_end: f64) -> Run {
@@ -133,13 +166,16 @@ fn measure(arguments: &Arguments) -> Outcome<ExitCode> {
         read_record(&compiler)?
     };
     println!(
-        "{:<24} {:<10} {:>9} {:>10} {:>10} {:>7}",
+        "{:<24} {:<16} {:>9} {:>10} {:>10} {:>7}",
         "problem", "scheme", "tolerance", "recorded", "now", "ratio"
     );
     let mut rows = Vec::new();
     let mut slower = 0;
     for problem in &problems {
-        for (place, _) in MEASURED.iter().enumerate() {
+        for (place, (.., trajectories)) in MEASURED.iter().enumerate() {
+            if *trajectories > 1 && problem.states().len() > MOST_STATES_IN_LANES {
+                continue;
+            }
             let row = row(problem, place)?;
             slower += u32::from(print(&row, &recorded));
             rows.push(row);
@@ -175,7 +211,7 @@ fn print(row: &Row, recorded: &[Row]) -> bool {
     };
     let is_slower = before.is_some_and(|before| now > before * (1.0 + ALLOWED));
     println!(
-        "{:<24} {:<10} {:>9} {text:>10} {now:>10.1} {ratio:>7}{}",
+        "{:<24} {:<16} {:>9} {text:>10} {now:>10.1} {ratio:>7}{}",
         row.problem,
         row.scheme,
         row.tolerance
@@ -187,7 +223,7 @@ fn print(row: &Row, recorded: &[Row]) -> bool {
 
 /// Counts the instructions of a step.
 fn row(problem: &Problem, place: usize) -> Outcome<Row> {
-    let (method, tolerance) = MEASURED[place];
+    let (method, tolerance, trajectories) = MEASURED[place];
     let description = problem.description();
     let whole = run_of(problem, (method, tolerance), description.t_end);
     let all = problem.integrate_silently(&whole)?.statistics.steps as f64;
@@ -204,10 +240,14 @@ fn row(problem: &Problem, place: usize) -> Outcome<Row> {
         Outcome::Ok((steps as f64, instructions))
     });
     let ((steps, instructions), (more_steps, more_instructions)) = (first?, second?);
-    let a_step = (more_instructions - instructions) / (more_steps - steps);
+    let more_steps = (more_steps - steps) * trajectories as f64;
+    let a_step = (more_instructions - instructions) / more_steps;
     Ok(Row {
         problem: description.name.to_owned(),
-        scheme: method.name().to_owned(),
+        scheme: match trajectories {
+            1 => method.name().to_owned(),
+            _ => format!("{} in lanes", method.name()),
+        },
         tolerance: match method.control() {
             Control::Tolerance => tolerance,
             Control::StepSize { .. } => None,

@@ -142,6 +142,18 @@ impl<S: Scalar, F: Dynamics<S, N, M>, const N: usize, const M: usize> Coefficien
 pub(crate) type GuardsUnrolled<S, F, const N: usize, const M: usize> =
     <<F as Dynamics<S, N, M>>::Guards as Guards<S, N>>::Unrolled;
 
+/// So many states are filled twice at no cost.
+const FEW: usize = 8;
+
+/// The first coefficients of a series; those that it has not are zero.
+#[inline(always)]
+fn first<S: Scalar, const P: usize>(series: &[S; P]) -> [S; FIRST] {
+    let mut first = [S::from_f64(0.0); FIRST];
+    let count = FIRST.min(P);
+    first[..count].copy_from_slice(&series[..count]);
+    first
+}
+
 /// The first coefficients of every switching function along a solution, in a unit of time.
 ///
 /// They are no part of the jet: what is not read of them is not even computed.
@@ -157,11 +169,16 @@ where
     F: Dynamics<S, N, M>,
     U: Unroll,
 {
-    let mut states = [[S::from_f64(0.0); FIRST]; N];
-    for (state, series) in states.iter_mut().zip(solution) {
-        let count = FIRST.min(P);
-        state[..count].copy_from_slice(&series[..count]);
-    }
+    let states = if const { N > FEW } {
+        std::array::from_fn(|i| first(&solution[i]))
+    } else {
+        // a loop, as closures are not inlined for certain
+        let mut states = [[S::from_f64(0.0); FIRST]; N];
+        for i in 0..N {
+            states[i] = first(&solution[i]);
+        }
+        states
+    };
     let mut first = First::<S, F, N, M> {
         dynamics,
         t,
