@@ -18,8 +18,8 @@ pub(crate) trait Masked: Scalar {
     /// How many there are.
     const LANES: usize;
 
-    /// What work gives, by a function of its own, for code that is seldom needed. It is no closure, as
-    /// those are not inlined for certain.
+    /// What work gives, by a function of its own, for code that is seldom needed. In lanes it is to be
+    /// inlined always, as closures are not.
     fn apart<Work: NullaryFnOnce>(how: Self::Apart, work: Work) -> Work::Output;
 
     /// Changes the value in a lane.
@@ -86,7 +86,7 @@ macro_rules! vector {
 }
 pub(crate) use vector;
 
-/// Those of a vector.
+/// The indices of a vector.
 #[inline(always)]
 pub(crate) fn indices<S, const K: usize>(_: &Vector<S, K>) -> Range<usize> {
     0..K

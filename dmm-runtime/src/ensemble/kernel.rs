@@ -75,20 +75,17 @@ impl<const N: usize> DynamicsVisitor<N, Wide> for Kernel<'_, N> {
         }
         loop {
             run.expand();
-            let crossed = if let Job::Cross(interface) = self.job {
-                Some(interface)
-            } else if run.step(&entry) {
-                match run.register.crossed_by_all() {
-                    None => return,
-                    together => together,
-                }
+            let interface = if let Job::Cross(interface) = self.job {
+                interface
+            } else if !run.step(&entry) {
+                entry = Entry::default();
+                continue;
+            } else if let Some(interface) = run.register.crossed_by_all() {
+                interface
             } else {
-                None
+                return;
             };
-            if let Some(interface) = crossed {
-                return run.cross(interface);
-            }
-            entry = Entry::default();
+            return run.cross(interface);
         }
     }
 }
