@@ -19,12 +19,12 @@ mod pairs;
 mod reached;
 mod weights;
 
+use pulp::NullaryFnOnce;
+
 use crate::arithmetic::double::Pair;
 use crate::arithmetic::lanes::{Lanes, Vectorised};
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
-use pulp::NullaryFnOnce;
-
 use crate::arithmetic::{MinimalNorm, State, Time, filled};
 use crate::contract::{Dynamics, Matrix, Vector};
 
@@ -41,6 +41,7 @@ pub(crate) struct Level<const N: usize, const M: usize, S: Masked = f64> {
     pub(crate) remainder: Vector<S, M>,
     /// (|terms of ψ|/|x|)²: the squares of slopes count relative to these.
     pub(crate) scale: Vector<S, M>,
+    /// See [`Masked::apart`].
     pub(crate) apart: S::Apart,
 }
 
@@ -140,7 +141,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             let rows = (&multiplier, dynamics.quantities());
             weights.solved(rows, &residual, (&little, used))
         };
-        if !steep.not().and(used).any() {
+        if steep.all_of(used) {
             return displacement;
         }
         let gentle = Gentle {
@@ -186,7 +187,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         }
         let fast = Factors::new(weights, (multiplier, count), &damping);
         let displacement = fast.displacement(residual);
-        if !fast.steep.not().and(used).any() {
+        if fast.steep.all_of(used) {
             return displacement;
         }
         let gentle =

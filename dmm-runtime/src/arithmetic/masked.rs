@@ -62,6 +62,12 @@ pub(crate) trait Mask<S>: Copy {
         !self.not().any()
     }
 
+    /// Whether it is true in every lane that is `used`.
+    #[inline(always)]
+    fn all_of(self, used: Self) -> bool {
+        !self.not().and(used).any()
+    }
+
     /// The one vector where it is true, the other elsewhere.
     #[inline(always)]
     fn select_vector<const N: usize>(self, one: &Vector<S, N>, other: &Vector<S, N>) -> Vector<S, N>

@@ -107,6 +107,12 @@ impl<const N: usize> Register<N> {
         self.idle.equals(Wide::from_f64(0.0))
     }
 
+    /// The first of them.
+    #[inline]
+    fn first_used(&self) -> Option<usize> {
+        (0..WIDTH).find(|&lane| !self.is_idle(lane))
+    }
+
     /// Notes which lanes need attention, the first mask that applies, and tells whether there
     /// are any in use.
     #[inline(always)]
@@ -131,13 +137,12 @@ impl<const N: usize> Register<N> {
     /// The interface that all lanes in use cross in their next step.
     #[inline(always)]
     pub(super) fn crossed_by_all(&self) -> Option<usize> {
-        let first = (0..WIDTH).find(|&lane| !self.is_idle(lane))?;
+        let first = self.first_used()?;
         let crosses = self.leave.equals(Wide::from_f64(Leave::CROSSES));
         let same = self
             .interface
             .equals(Wide::from_f64(self.interface.0[first]));
-        let others = self.used().not();
-        let all = crosses.and(same).or(others).all();
+        let all = crosses.and(same).all_of(self.used());
         all.then_some(self.interface.0[first] as usize)
     }
 
@@ -151,8 +156,7 @@ impl<const N: usize> Register<N> {
 
     /// The interface that the first lane in use has come to.
     pub(super) fn crossed(&self) -> Option<usize> {
-        let first = (0..WIDTH).find(|&lane| !self.is_idle(lane))?;
-        match self.leave(first) {
+        match self.leave(self.first_used()?) {
             Leave::Crossed(interface) => Some(interface),
             _ => None,
         }

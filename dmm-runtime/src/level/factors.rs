@@ -108,7 +108,7 @@ impl<const N: usize, S: Masked> Weights<N, S> {
     ) -> (Vector<S, N>, S::Mask) {
         let fast = Factors::new(self, (multiplier, count), bound);
         let displacement = fast.displacement(residual);
-        if !fast.independent.not().and(used).any() {
+        if fast.independent.all_of(used) {
             return (displacement, fast.steep);
         }
         let (slow, steep) = self.by_lane(multiplier, residual, bound, |projection, residual, _| {
