@@ -21,7 +21,7 @@ use std::process::{Command, ExitCode};
 
 use clap::Parser;
 use dmm_problems::method::{Control, MethodName};
-use dmm_problems::problem::{Parallelism, Problem, Run, Start};
+use dmm_problems::problem::{Parallelism, Problem, Run};
 use dmm_problems::registry;
 use serde::{Deserialize, Serialize};
 
@@ -113,15 +113,7 @@ fn integrate_together(problem: &Problem, run: &Run, trajectories: usize) -> Outc
         threads: Some(1),
         lanes: true,
     };
-    let start = Start {
-        parameters: problem
-            .parameters()
-            .iter()
-            .map(|(_, value)| *value)
-            .collect(),
-        initial: run.initial.clone(),
-    };
-    let mut starts = std::iter::repeat_n(start, trajectories);
+    let mut starts = std::iter::repeat_n(problem.default_start(), trajectories);
     let mut error = None;
     problem.integrate_all(run, parallelism, &mut starts, &mut |outcome| {
         error = error.take().or(outcome.error);

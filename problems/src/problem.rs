@@ -221,6 +221,15 @@ impl Problem {
         }
     }
 
+    /// The start of the problem's description, with the parameters as they are.
+    pub fn default_start(&self) -> Start {
+        let parameters = self.parameters();
+        Start {
+            parameters: parameters.iter().map(|(_, value)| *value).collect(),
+            initial: self.description().initial.to_vec(),
+        }
+    }
+
     /// Whether a run from `initial` is the one that the reference solution is of.
     pub fn is_reference_run(&self, initial: &[f64]) -> bool {
         self.description().reference.is_some()

@@ -70,7 +70,7 @@ fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
         ["ensemble", name, scheme, control, t_end, file, how, repeats] => {
             let problem = registry::find(name)?;
             let run = request(&problem, scheme, control, t_end.parse()?)?;
-            let starts = starts(&problem, &run, file)?;
+            let starts = starts(&problem, file)?;
             ensemble(&problem, &run, &starts, *how == "lanes", repeats.parse()?)
         }
         _ => Err(format!("no such request: {}", words.join(" ")).into()),
@@ -163,16 +163,13 @@ fn time_of_nothing() -> f64 {
 }
 
 /// Where the runs of a file start.
-fn starts(problem: &Problem, run: &Run, file: &str) -> Result<Vec<Start>, Box<dyn Error>> {
+fn starts(problem: &Problem, file: &str) -> Result<Vec<Start>, Box<dyn Error>> {
     let mut reader = csv::Reader::from_path(file)?;
     let names = reader.headers()?.clone();
     let (states, parameters) = (problem.states(), problem.parameters());
     let mut starts = Vec::new();
     for row in reader.records() {
-        let mut start = Start {
-            parameters: parameters.iter().map(|(_, value)| *value).collect(),
-            initial: run.initial.clone(),
-        };
+        let mut start = problem.default_start();
         for (name, value) in names.iter().zip(&row?) {
             let state = states.iter().position(|state| *state == name);
             let parameter = parameters.iter().position(|(other, _)| *other == name);

@@ -43,15 +43,6 @@ impl Range {
     }
 }
 
-/// Where a member starts unless it says otherwise.
-fn default_start(problem: &Problem) -> Start {
-    let parameters = problem.parameters();
-    Start {
-        parameters: parameters.iter().map(|(_, value)| *value).collect(),
-        initial: problem.description().initial.to_vec(),
-    }
-}
-
 fn set(start: &mut Start, quantity: Quantity, value: f64) {
     let (values, index) = match quantity {
         Quantity::Parameter(index) => (&mut start.parameters, index),
@@ -104,7 +95,7 @@ pub(crate) fn combinations(
         .clone()
         .try_fold(1u64, u64::checked_mul)
         .ok_or_else(|| Failure::Request("there are more than 2^64 combinations".to_owned()))?;
-    let start = default_start(problem);
+    let start = problem.default_start();
     let row = move |number: u64| {
         let mut start = start.clone();
         let mut rest = number;
@@ -181,7 +172,7 @@ pub(crate) fn of_file(problem: &Problem, path: &Path) -> Result<Members, Failure
         let quantity = quantity.ok_or_else(|| input::unknown("state or parameter", name, known))?;
         columns.push((name.to_owned(), quantity));
     }
-    let start = default_start(problem);
+    let start = problem.default_start();
     let records = reader
         .into_records()
         .map(move |record| row(&start, &columns, record));
