@@ -22,7 +22,7 @@ mod weights;
 use pulp::NullaryFnOnce;
 
 use crate::arithmetic::double::Pair;
-use crate::arithmetic::lanes::{Lanes, Vectorised};
+use crate::arithmetic::lanes::Lanes;
 use crate::arithmetic::linear::dot;
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{MinimalNorm, State, Time, filled};
@@ -41,8 +41,6 @@ pub(crate) struct Level<const N: usize, const M: usize, S: Masked = f64> {
     pub(crate) remainder: Vector<S, M>,
     /// (|terms of ψ|/|x|)²: the squares of slopes count relative to these.
     pub(crate) scale: Vector<S, M>,
-    /// See [`Masked::apart`].
-    pub(crate) apart: S::Apart,
 }
 
 /// Where the slope is smaller than this, rounding errors of ψ would move the state by more
@@ -61,13 +59,11 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         dynamics: &F,
         (t, state): (S, &State<N, S>),
         psi: &Vector<Pair<S>, M>,
-        apart: S::Apart,
     ) -> Self {
         let mut level = Self {
             reference: vector!(|m| psi[m].high),
             remainder: vector!(|m| psi[m].low),
             scale: filled(S::from_f64(0.0)),
-            apart,
         };
         level.rescale(dynamics, t, state);
         level
@@ -151,7 +147,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             multiplier: &multiplier,
             how: (weights, used),
         };
-        steep.select_vector(&displacement, &S::apart(self.apart, gentle))
+        steep.select_vector(&displacement, &S::apart(gentle))
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.
@@ -233,10 +229,9 @@ impl<const N: usize, const M: usize, const L: usize> Level<N, M, Lanes<L>> {
         dynamics: &F,
         time: Time<Lanes<L>>,
         state: &State<N, Lanes<L>>,
-        apart: Vectorised,
     ) -> Self {
         let psi = in_pairs(dynamics, time, state);
-        Self::at(dynamics, (time.value, state), &psi, apart)
+        Self::at(dynamics, (time.value, state), &psi)
     }
 }
 
@@ -253,7 +248,7 @@ impl<const N: usize, const M: usize> Level<N, M> {
             Some(kept) => from_kept(kept),
             None => in_pairs(dynamics, time, state),
         };
-        Self::at(dynamics, (time.value, state), &psi, ())
+        Self::at(dynamics, (time.value, state), &psi)
     }
 
     /// What goes on with the next segment.

@@ -1,15 +1,19 @@
 //! What it costs to compile a system at run time: its time until it can be integrated, and the time
-//! of a step as a multiple of that of generated code, in turn.
+//! of a step as a multiple of that of generated code, in turn; and how many times as fast its ensembles
+//! are in lanes as one trajectory at a time, on one thread.
 //!
 //! ```sh
 //! cargo run --release -p dmm-problems --features compiled --example tape
 //! ```
 
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use dmm_problems::problem::Description;
 use dmm_problems::registry::{SystemVisitor, visit_systems};
-use dmm_runtime::dynamic::{AnySystem, Erased, InitialValue, MethodChoice, MethodVisitor};
+use dmm_runtime::dynamic::{
+    AnySystem, Erased, InitialValue, MethodChoice, MethodVisitor, Parallelism, Start,
+};
 use dmm_runtime::{Best, Model, Symmetric, System, Taylor};
 
 /// The methods that are measured.
@@ -34,6 +38,8 @@ impl MethodChoice for Choice {
 const ROUNDS: usize = 9;
 /// Of a run of generated code, so that it is long enough to be measured.
 const LEAST: Duration = Duration::from_millis(5);
+/// Trajectories of an ensemble.
+const MEMBERS: usize = 64;
 
 /// Prints a row for each system.
 struct Rows;
@@ -65,9 +71,12 @@ impl SystemVisitor for Rows {
                 },
             );
         let [symmetric, coarse, fine, best] = ratios;
+        let lanes = gain_of_lanes(&*model, description);
         let time = time.as_secs_f64() * 1e3;
         let name = description.name;
-        println!("{name:24} {time:8.1} {symmetric:>10} {coarse:>10} {fine:>10} {best:>10}");
+        println!(
+            "{name:24} {time:8.1} {symmetric:>10} {coarse:>10} {fine:>10} {best:>10} {lanes:>7.1}"
+        );
     }
 }
 
@@ -95,15 +104,44 @@ fn ratio(
         let [compiled, model] = systems.map(|system| time(system, &from));
         ratios.push(model?.as_secs_f64() / compiled?.as_secs_f64());
     }
+    Some(median(ratios))
+}
+
+fn median(mut ratios: Vec<f64>) -> f64 {
     ratios.sort_by(f64::total_cmp);
-    Some(ratios[ROUNDS / 2])
+    ratios[ratios.len() / 2]
+}
+
+/// The median of the times of an ensemble by one trajectory at a time as multiples of those in lanes.
+fn gain_of_lanes(model: &dyn AnySystem<Choice>, description: &Description) -> f64 {
+    let start = Start {
+        parameters: model.parameters(),
+        initial: description.initial.to_vec(),
+    };
+    let time = |lanes| {
+        let parallelism = Parallelism {
+            threads: Some(1),
+            lanes,
+        };
+        let mut starts = std::iter::repeat_n(start.clone(), MEMBERS);
+        let start = Instant::now();
+        model.integrate_all(
+            &Choice::Taylor(1e-12),
+            description.t_end,
+            parallelism,
+            &mut starts,
+            &mut |_| ControlFlow::Continue(()),
+        );
+        start.elapsed().as_secs_f64()
+    };
+    median((0..ROUNDS).map(|_| time(false) / time(true)).collect())
 }
 
 fn main() {
     println!("time of a model as a multiple of that of generated code; ms until it is compiled\n");
     println!(
-        "{:24} {:>8} {:>10} {:>10} {:>10} {:>10}",
-        "problem", "ms", "symmetric", "taylor-6", "taylor-12", "best-12"
+        "{:24} {:>8} {:>10} {:>10} {:>10} {:>10} {:>7}",
+        "problem", "ms", "symmetric", "taylor-6", "taylor-12", "best-12", "lanes"
     );
     visit_systems(&mut Rows);
 }

@@ -42,12 +42,14 @@ pub(crate) struct Vectorised {
 
 impl Vectorised {
     /// It, if the processor has what it takes.
+    #[inline]
     #[cfg(target_arch = "x86_64")]
     pub(crate) fn new() -> Option<Self> {
         pulp::x86::V3::try_new().map(|level| Self { level })
     }
 
     /// It, if the processor has what it takes.
+    #[inline]
     #[cfg(not(target_arch = "x86_64"))]
     pub(crate) fn new() -> Option<Self> {
         cfg!(target_arch = "aarch64").then_some(Self {})
@@ -110,13 +112,7 @@ impl<const L: usize> Mask<Lanes<L>> for LaneMask<L> {
 
 impl<const L: usize> Masked for Lanes<L> {
     type Mask = LaneMask<L>;
-    type Apart = Vectorised;
     const LANES: usize = L;
-
-    #[inline(never)]
-    fn apart<Work: NullaryFnOnce>(how: Vectorised, work: Work) -> Work::Output {
-        how.run(work)
-    }
 
     #[inline(always)]
     fn set_lane(&mut self, lane: usize, value: f64) {
@@ -229,6 +225,14 @@ macro_rules! by_lane {
 
 impl<const L: usize> Scalar for Lanes<L> {
     const ROUNDING: f64 = f64::ROUNDING;
+
+    #[inline(never)]
+    fn apart<Work: NullaryFnOnce>(work: Work) -> Work::Output {
+        match Vectorised::new() {
+            Some(how) => how.run(work),
+            None => work.call(),
+        }
+    }
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {

@@ -1,10 +1,7 @@
 //! Decisions on scalars of which there may be several at once: a truth value for each lane takes the
 //! place of a condition, and a choice by it the place of a branch.
 
-use std::fmt::Debug;
 use std::ops::Range;
-
-use pulp::NullaryFnOnce;
 
 use super::error_free::{HAS_FUSED, split_error};
 use super::{Scalar, Vector};
@@ -13,14 +10,8 @@ use super::{Scalar, Vector};
 pub(crate) trait Masked: Scalar {
     /// What a comparison tells.
     type Mask: Mask<Self>;
-    /// What it takes to compute with them in another function.
-    type Apart: Copy + Debug;
     /// How many there are.
     const LANES: usize;
-
-    /// What work gives, by a function of its own, for code that is seldom needed. In lanes it is to be
-    /// inlined always, as closures are not.
-    fn apart<Work: NullaryFnOnce>(how: Self::Apart, work: Work) -> Work::Output;
 
     /// Changes the value in a lane.
     fn set_lane(&mut self, lane: usize, value: f64);
@@ -100,13 +91,7 @@ pub(crate) fn indices<S, const K: usize>(_: &Vector<S, K>) -> Range<usize> {
 
 impl Masked for f64 {
     type Mask = bool;
-    type Apart = ();
     const LANES: usize = 1;
-
-    #[inline(never)]
-    fn apart<Work: NullaryFnOnce>((): (), work: Work) -> Work::Output {
-        work.call()
-    }
 
     #[inline(always)]
     fn set_lane(&mut self, _lane: usize, value: f64) {

@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use pulp::NullaryFnOnce;
+
 use super::rows;
 
 /// A real scalar: `f64`; within this crate also pairs of doubles, and several doubles at once.
@@ -31,6 +33,13 @@ pub trait Scalar:
     /// Orders of derivatives that it carries.
     const DERIVATIVES: usize = 0;
 
+    /// What work gives, by a function of its own. Of several scalars at once it is compiled for
+    /// vector registers if it is inlined always, as closures are not.
+    #[doc(hidden)]
+    #[inline(never)]
+    fn apart<Work: NullaryFnOnce>(work: Work) -> Work::Output {
+        work.call()
+    }
     /// The scalar nearest to `value`.
     fn from_f64(value: f64) -> Self;
     /// The value as a double.

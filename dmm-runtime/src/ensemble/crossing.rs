@@ -27,7 +27,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             GuardPoint::near(self.dynamics, &found, start, tau, increment, used);
         let increment = vector!(|i| state.x[i] - self.register.state.x[i]);
         let how = (self.settings.corrects, located);
-        let level = self.register.level(self.settings.vectorised);
+        let level = self.register.level();
         let near = (time, &state);
         let (there, crossed) =
             GuardPoint::settled(near, self.dynamics, &level, interface, &increment, how);

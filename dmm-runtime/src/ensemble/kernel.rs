@@ -133,13 +133,12 @@ impl<const N: usize> Register<N> {
 
     /// The level of the conserved quantities.
     #[inline(always)]
-    pub(super) fn level<const M: usize>(&self, apart: Vectorised) -> Level<N, M, Wide> {
+    pub(super) fn level<const M: usize>(&self) -> Level<N, M, Wide> {
         let [reference, remainder, scale] = &self.level;
         Level {
             reference: vector!(|m| reference[m]),
             remainder: vector!(|m| remainder[m]),
             scale: vector!(|m| scale[m]),
-            apart,
         }
     }
 
@@ -173,7 +172,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
     #[inline(always)]
     fn enter(&mut self, interface: Option<usize>) -> Entry {
         let Register { time, state, .. } = &*self.register;
-        let level = Level::in_lanes(self.dynamics, *time, state, self.settings.vectorised);
+        let level = Level::in_lanes(self.dynamics, *time, state);
         let barred = interface.map(|interface| {
             let rate = self.dynamics.rate(interface, time.value, &state.x);
             let inwards = Wide::from_f64(self.sign(interface)) * rate;
@@ -274,7 +273,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             halvings += 1;
             size = near.select(n(0.5) * size, size);
         };
-        let mut level = self.register.level(self.settings.vectorised);
+        let mut level = self.register.level();
         let displacement = vector!(|i| state.x[i] - self.register.state.x[i]);
         let how = (self.settings.corrects, used);
         state = level.reached(self.dynamics, time, state, &displacement, how);

@@ -33,9 +33,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             return self.reached_at_once(dynamics, time, state, (&weights, used));
         }
         if S::LANES == 1 {
-            return S::apart(self.apart, || {
-                self.reached_by_factors(dynamics, time, state, (&weights, used))
-            });
+            return S::apart(|| self.reached_by_factors(dynamics, time, state, (&weights, used)));
         }
         self.reached_by_factors(dynamics, time, state, (&weights, used))
     }
@@ -164,7 +162,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             place: (time, &state),
             how,
         };
-        S::apart(self.apart, steps)
+        S::apart(steps)
     }
 }
 

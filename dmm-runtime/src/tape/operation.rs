@@ -3,6 +3,8 @@
 use dmm_compiler::algebra::{Function, Id, Math, PairFunction};
 use dmm_compiler::program::{Lowered, nearest_double};
 
+use pulp::NullaryFnOnce;
+
 use crate::arithmetic::Scalar;
 
 /// The number of a register: that of the node whose value it holds.
@@ -108,10 +110,27 @@ impl Operation {
 }
 
 /// Does operations one after the other. Compiled once, and not for every number of states.
-#[inline(never)]
 pub(super) fn run<S: Scalar>(operations: &[Operation], registers: &mut [S]) {
-    for operation in operations {
-        operation.run(registers);
+    S::apart(InTurn {
+        operations,
+        registers,
+    });
+}
+
+/// Operations that are done one after the other.
+struct InTurn<'a, S> {
+    operations: &'a [Operation],
+    registers: &'a mut [S],
+}
+
+impl<S: Scalar> NullaryFnOnce for InTurn<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for operation in self.operations {
+            operation.run(self.registers);
+        }
     }
 }
 
@@ -129,8 +148,18 @@ pub(super) fn constants(lowered: &Lowered) -> Vec<(Register, f64)> {
 }
 
 /// The value of a function of one argument.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn call<S: Scalar>(function: Function, u: S) -> S {
+    // an instruction of the processor
+    if function == Function::Sqrt {
+        return u.sqrt();
+    }
+    elementary(function, u)
+}
+
+/// The same by a function of its own.
+#[inline(never)]
+fn elementary<S: Scalar>(function: Function, u: S) -> S {
     match function {
         Function::Sqrt => u.sqrt(),
         Function::Exp => u.exp(),

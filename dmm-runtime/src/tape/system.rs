@@ -274,6 +274,7 @@ impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
         self.visit_with(region, |index| self.parameters[index], visitor)
     }
 
+    #[inline(always)]
     fn visit_with<S: Scalar, V: DynamicsVisitor<N, S>>(
         &self,
         mode: TapeMode,

@@ -93,7 +93,7 @@ impl SeriesCode {
         registers: &mut [S],
         series: &mut [[S; P]],
     ) {
-        let mut orders = AtOrder {
+        let mut order = AtOrder {
             k,
             t,
             registers,
@@ -101,7 +101,7 @@ impl SeriesCode {
             states: None,
             shift: N - self.first,
         };
-        orders.run(self);
+        order.run(self);
     }
 
     /// Coefficients of order k of the roots along a solution.
@@ -113,7 +113,7 @@ impl SeriesCode {
         states: &[[S; P]],
         series: &mut [[S; P]],
     ) {
-        let mut orders = AtOrder {
+        let mut order = AtOrder {
             k,
             t,
             registers,
@@ -121,6 +121,6 @@ impl SeriesCode {
             states: Some(states),
             shift: 0,
         };
-        orders.run(self);
+        order.run(self);
     }
 }

@@ -4,6 +4,8 @@ use dmm_compiler::algebra::Function;
 use dmm_compiler::program::Variable;
 use dmm_compiler::program::series::Place;
 
+use pulp::NullaryFnOnce;
+
 use super::SeriesCode;
 use super::steps::{FunctionStep, Integral, Multiple, Multiplier, Outcome, PowerBase, Step, Value};
 use crate::arithmetic::Scalar;
@@ -24,8 +26,12 @@ pub(super) struct AtOrder<'a, S, K, const P: usize> {
 
 impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     /// Compiled once, and not for every number of states.
-    #[inline(never)]
     pub(super) fn run(&mut self, code: &SeriesCode) {
+        S::apart(Whole { order: self, code });
+    }
+
+    #[inline(always)]
+    fn whole(&mut self, code: &SeriesCode) {
         let at = self.k.get();
         for &(register, variable) in &code.inputs {
             self.registers[register as usize] = match variable {
@@ -85,6 +91,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     }
 
     /// The reciprocal of `value`, taken at order zero.
+    #[inline(always)]
     fn inverse(&mut self, place: Place, value: S) -> S {
         if self.is_start() {
             self.set(place, 0, S::from_f64(1.0) / value);
@@ -93,10 +100,12 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     }
 
     /// h du/dh
+    #[inline(always)]
     fn derivative(&mut self, u: S, place: Place) {
         self.set(place, self.k.get(), series::derivative(self.k, u));
     }
 
+    #[inline(always)]
     fn step(&mut self, step: &Step) {
         let (k, at) = (self.k, self.k.get());
         let signed = |is_negative: bool, u: S| if is_negative { -u } else { u };
@@ -165,6 +174,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     }
 
     /// sin and cos, sinh and cosh: each the integral of the other.
+    #[inline(always)]
     fn pair(
         &mut self,
         (functions, is_negative): ([Function; 2], bool),
@@ -187,6 +197,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         }
     }
 
+    #[inline(always)]
     fn function(&mut self, step: FunctionStep) -> S {
         let (k, at, one) = (self.k, self.k.get(), S::from_f64(1.0));
         match step {
@@ -262,6 +273,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     }
 
     /// √u; `own` has those of lower order.
+    #[inline(always)]
     fn square_root(&mut self, u: S, own: Place, inverse: Place) -> S {
         let root = u.sqrt();
         let inverse = self.inverse(inverse, S::from_f64(2.0) * root);
@@ -272,6 +284,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     }
 
     /// u^v = e^(v ln u), v changing with the time.
+    #[inline(always)]
     fn variable_power(
         &mut self,
         base: PowerBase,
@@ -309,6 +322,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
     }
 
     /// w = ±∫ du/v
+    #[inline(always)]
     fn integral(&mut self, integral: &Integral) -> S {
         let (k, at) = (self.k, self.k.get());
         let inverse = self.inverse(integral.inverse, self.array(integral.divisor)[0]);
@@ -324,6 +338,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         series::antiderivative(k, slope)
     }
 
+    #[inline(always)]
     fn multiplied(&self, multiplier: Multiplier, scale: S) -> S {
         match multiplier {
             Multiplier::Minus => -scale,
@@ -331,20 +346,26 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         }
     }
 
+    #[inline(always)]
     fn multiple(&self, multiple: &Multiple, scale: S) -> S {
         let k = self.k;
+        let within = |of, scale| {
+            S::apart(Scaled {
+                order: self,
+                of,
+                scale,
+            })
+        };
         match multiple {
             Multiple::Constant(c) => series::constant(k, self.fixed(*c) * scale),
             Multiple::Node(u) => series::scaled(k, self.value(*u), scale),
-            Multiple::Times(multiplier, of) => {
-                self.multiple(of, self.multiplied(*multiplier, scale))
-            }
+            Multiple::Times(multiplier, of) => within(of, self.multiplied(*multiplier, scale)),
             Multiple::Shifted {
                 is_negative,
                 moving,
                 fixed,
             } => {
-                let u = self.multiple(moving, if *is_negative { -scale } else { scale });
+                let u = within(moving, if *is_negative { -scale } else { scale });
                 let c = self.fixed(fixed.1) * scale;
                 series::plus(k, u, if fixed.0 { -c } else { c })
             }
@@ -355,6 +376,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         }
     }
 
+    #[inline(always)]
     fn result(&mut self, index: usize, result: &Outcome) {
         let (k, at) = (self.k, self.k.get());
         match result {
@@ -373,5 +395,36 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
                 }
             }
         }
+    }
+}
+
+/// All steps of an order.
+struct Whole<'a, 'b, S, K, const P: usize> {
+    order: &'a mut AtOrder<'b, S, K, P>,
+    code: &'a SeriesCode,
+}
+
+impl<S: Scalar, K: Order, const P: usize> NullaryFnOnce for Whole<'_, '_, S, K, P> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.order.whole(self.code);
+    }
+}
+
+/// A multiple within another.
+struct Scaled<'a, S, K, const P: usize> {
+    order: &'a AtOrder<'a, S, K, P>,
+    of: &'a Multiple,
+    scale: S,
+}
+
+impl<S: Scalar, K: Order, const P: usize> NullaryFnOnce for Scaled<'_, S, K, P> {
+    type Output = S;
+
+    #[inline(always)]
+    fn call(self) -> S {
+        self.order.multiple(self.of, self.scale)
     }
 }
