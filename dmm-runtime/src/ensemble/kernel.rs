@@ -276,7 +276,12 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let mut level = self.register.level();
         let displacement = vector!(|i| state.x[i] - self.register.state.x[i]);
         let how = (self.settings.corrects, used);
-        state = level.reached(self.dynamics, time, state, &displacement, how);
+        let left = level.nearly_reached(self.dynamics, time, &mut state, &displacement, how);
+        let left = left.and(last);
+        if left.any() {
+            let how = (true, left);
+            state = level.reached(self.dynamics, time, state, &displacement, how);
+        }
         let stands = time.value.equals(start.value);
         let stands = stands.and(time.remainder.equals(start.remainder));
         let moves = tau.above(n(0.0)).and(stands.not());

@@ -30,7 +30,7 @@ pub(super) struct Trajectory<Sys: System<N>, const N: usize> {
     pub(super) active: Active,
     /// How it came there, until the region entered has been found to take it.
     pub(super) crossing: Option<Crossing<Sys::Region>>,
-    pub(super) memory: taylor::Memory,
+    pub(super) memory: taylor::Memory<N>,
     pub(super) accumulation: Accumulation,
     pub(super) statistics: Statistics,
     /// The parts of the level in the region; see [`crate::level`].

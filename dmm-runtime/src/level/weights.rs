@@ -13,7 +13,7 @@ const USUAL: Range<f64> = 1e-20..1e20;
 
 /// The error of second order of a displacement by this part of the state is more than a rounding
 /// error.
-pub(super) const COARSE: f64 = 1e-9;
+pub(crate) const COARSE: f64 = 1e-9;
 
 /// The sizes of components next to a point: wᵢ² = xᵢ² + dᵢ² of the state and the step that led to
 /// it.
@@ -94,20 +94,14 @@ impl<const N: usize, S: Masked> Weights<N, S> {
         (results, steep.above(S::from_f64(0.5)))
     }
 
-    /// Whether the error of second order of a displacement is more than a rounding error.
+    /// Whether a displacement is more than a part of the state.
     #[inline(always)]
-    pub(crate) fn are_left_by(&self, displacement: &Vector<S, N>) -> S::Mask {
-        self.are_left_by_both(displacement, displacement)
-    }
-
-    /// Whether the product of two displacements is more than a rounding error.
-    #[inline(always)]
-    pub(super) fn are_left_by_both(&self, one: &Vector<S, N>, other: &Vector<S, N>) -> S::Mask {
-        let coarse = S::from_f64(COARSE * COARSE) * self.unit;
+    pub(crate) fn exceeded_by(&self, displacement: &Vector<S, N>, part: f64) -> S::Mask {
+        let square = S::from_f64(part * part) * self.unit;
         let mut any = S::Mask::all_are(false);
         for i in 0..N {
-            let product = (one[i] * other[i]).abs();
-            any = any.or(product.above(coarse * self.squares[i]));
+            let of = displacement[i] * displacement[i];
+            any = any.or(of.above(square * self.squares[i]));
         }
         any
     }

@@ -87,7 +87,7 @@ impl Best {
 /// What steps of either kind carry from segment to segment.
 #[derive(Clone, Debug)]
 pub struct Memory<const N: usize> {
-    taylor: taylor::Memory,
+    taylor: taylor::Memory<N>,
     exact: exact::Memory<N>,
 }
 

@@ -18,6 +18,9 @@ pub trait Sink<const N: usize> {
     /// What is counted.
     fn statistics(&mut self) -> &mut Statistics;
 
+    /// Whether anybody is told of the points.
+    fn listens(&self) -> bool;
+
     /// The solution has reached a point, by a step or at a guard. `ControlFlow::Break` ends the
     /// segment there.
     fn point(&mut self, time: Time, state: &State<N>) -> ControlFlow<()>;
@@ -46,6 +49,11 @@ impl<const N: usize> Sink<N> for Silent<'_> {
     #[inline(always)]
     fn statistics(&mut self) -> &mut Statistics {
         self.statistics
+    }
+
+    #[inline(always)]
+    fn listens(&self) -> bool {
+        false
     }
 
     #[inline(always)]
@@ -121,6 +129,11 @@ impl<const N: usize> Sink<N> for Observed<'_, N> {
     #[inline]
     fn statistics(&mut self) -> &mut Statistics {
         self.statistics
+    }
+
+    #[inline(always)]
+    fn listens(&self) -> bool {
+        self.listener.is_some()
     }
 
     #[inline(always)]

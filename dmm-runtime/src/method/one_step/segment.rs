@@ -6,7 +6,7 @@ use super::map::{OneStep, Step};
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Guards, Side, Vector};
-use crate::level::{Level, Weights};
+use crate::level::{COARSE, Level, Weights};
 use crate::method::{Cursor, Failure, Sink, Statistics, StepFailure};
 
 /// A segment under way.
@@ -98,7 +98,7 @@ pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<
         return;
     }
     for _ in 1..MOST_CORRECTIONS {
-        if !weights.are_left_by(&displacement) {
+        if !weights.exceeded_by(&displacement, COARSE) {
             break;
         }
         *state = state.normalised();

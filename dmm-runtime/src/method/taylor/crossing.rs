@@ -61,7 +61,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         if self.sink.next_output().is_some() {
             let elapsed = time.since(self.cursor.time).clamp(0.0, tau);
             let here = Here::of(self);
-            self.outputs_along::<P, M, D, U>(dynamics, level, jet, &here, (elapsed, time));
+            self.outputs_along::<P, M, D, U>(dynamics, *level, jet, here, (elapsed, time));
         }
         self.cursor.state = state;
         self.cursor.time = time;

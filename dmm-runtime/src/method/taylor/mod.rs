@@ -9,7 +9,7 @@ mod steps;
 pub(crate) use steps::{RESCALING, step_to};
 
 use super::{Cursor, Ended, Failure, InLanes, Method, Sink, Variation, check_tolerance};
-use crate::arithmetic::{Scalar, Vector};
+use crate::arithmetic::{Scalar, State, Vector};
 use crate::contract::Dynamics;
 use crate::error::Error;
 use crate::events::ends::Decay;
@@ -114,7 +114,7 @@ impl Taylor {
 
 /// What Taylor steps carry from segment to segment.
 #[derive(Clone, Copy, Debug)]
-pub struct Memory {
+pub struct Memory<const N: usize> {
     /// The part of the radius of convergence that a step takes.
     fraction: f64,
     /// The part of such a step whose error is below rounding.
@@ -124,10 +124,12 @@ pub struct Memory {
     pub(crate) step: f64,
     /// The unit of time of the coefficients.
     pub(crate) unit: f64,
+    /// The state of steps that were stopped, which is near the level; what was shown of it lies on it.
+    stopped: Option<State<N>>,
 }
 
 impl Method for Taylor {
-    type Memory<const N: usize> = Memory;
+    type Memory<const N: usize> = Memory<N>;
 
     fn check(&self, _t0: f64, _t_end: f64) -> Result<(), Error> {
         check_tolerance(self.tolerance)
@@ -140,13 +142,14 @@ impl Method for Taylor {
         })
     }
 
-    fn memory<const N: usize>(&self, _t0: f64, _t_end: f64) -> Memory {
+    fn memory<const N: usize>(&self, _t0: f64, _t_end: f64) -> Memory<N> {
         Memory {
             fraction: self.fraction(),
             decay: Decay::new(self.fraction()),
             finest: self.finest(),
             step: 0.0,
             unit: 1.0,
+            stopped: None,
         }
     }
 
@@ -155,7 +158,7 @@ impl Method for Taylor {
         dynamics: &D,
         cursor: &mut Cursor<N>,
         until: f64,
-        memory: &mut Memory,
+        memory: &mut Memory<N>,
         sink: &mut S,
     ) -> Result<Ended, Failure>
     where
@@ -175,7 +178,7 @@ impl Method for Taylor {
 
     fn reach<D, const N: usize, const M: usize>(
         &self,
-        memory: &Memory,
+        memory: &Memory<N>,
         dynamics: &D,
         cursor: &mut Cursor<N>,
         to: f64,

@@ -13,7 +13,7 @@ pub(super) struct Segment<'a, S, const N: usize> {
     pub(super) method: &'a Taylor,
     pub(super) cursor: &'a mut Cursor<N>,
     pub(super) until: f64,
-    pub(super) memory: &'a mut Memory,
+    pub(super) memory: &'a mut Memory<N>,
     pub(super) sink: &'a mut S,
 }
 
@@ -29,9 +29,9 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     >(
         &mut self,
         dynamics: &D,
-        level: &Level<N, M>,
+        level: Level<N, M>,
         jet: &Jet<D, U, N, M, P>,
-        here: &Here<N>,
+        here: Here<N>,
         (tau, end): (f64, Time),
     ) {
         let corrects = self.method.corrects_level();
@@ -65,12 +65,14 @@ pub(super) struct Here<const N: usize> {
 }
 
 impl<const N: usize> Here<N> {
-    /// Where the cursor of a segment is.
+    /// Where the cursor of a segment is, or what steps had there when they were stopped.
     #[inline(always)]
-    pub(super) fn of<S>(segment: &Segment<'_, S, N>) -> Self {
+    pub(super) fn of<S>(segment: &mut Segment<'_, S, N>) -> Self {
+        let stopped = segment.memory.stopped.take();
+        let stopped = stopped.filter(|_| segment.cursor.level.is_some());
         Self {
             time: segment.cursor.time,
-            state: segment.cursor.state,
+            state: stopped.unwrap_or(segment.cursor.state),
             before: segment.memory.step,
             steps: 0,
         }

@@ -1,12 +1,14 @@
 //! Taylor steps: the series of the solution at each point, over as much of its radius of
 //! convergence as the tolerance allows.
 
+use std::ops::ControlFlow;
+
 use super::ahead::{Ahead, Part};
 use super::segment::{Here, Segment};
-use crate::arithmetic::Time;
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::masked::{Mask, Masked};
-use crate::contract::{Dynamics, Guards};
+use crate::arithmetic::{State, Time, filled};
+use crate::contract::{Dynamics, Guards, Vector};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::OtherUnit;
 use crate::level::{Found, Level};
@@ -48,38 +50,83 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &mut self,
         dynamics: &D,
     ) -> Result<Ended, Failure> {
+        let start = self.cursor.state;
         let mut here = Here::of(self);
         let mut jet = Jet::<D, U, N, M, P>::new(dynamics, self.method.order(), self.memory.unit);
         jet.expand(dynamics, here.time.value, &here.state.x);
         // after the chain of recurrences, which leaves the processor time for it
         let kept = self.cursor.level.as_deref();
-        let level = Level::enter(dynamics, here.time, &here.state, kept);
-        let end = self.steps::<P, M, D, U>(dynamics, level, &mut jet, &mut here);
+        let mut level = Level::enter(dynamics, here.time, &here.state, kept);
+        let end = self.steps::<P, M, D, U>(dynamics, &mut level, &mut jet, &mut here);
         self.cursor.time = here.time;
         self.cursor.state = here.state;
         self.memory.step = here.before;
         self.memory.unit = jet.unit();
         self.sink.statistics().steps += here.steps;
-        match end {
+        let ended = match end {
             Next::Finished => Ok(Ended::Finished),
-            Next::Stopped(level) => {
+            Next::Stopped(shown) => {
                 self.cursor.level = Some(level.kept());
                 self.cursor.active.clear();
-                Ok(Ended::Stopped)
+                self.cursor.state = shown;
+                self.memory.stopped = Some(here.state);
+                return Ok(Ended::Stopped);
             }
-            Next::Crossing { found, tau, level } => {
+            Next::Crossing { found, tau } => {
                 self.go_to_guard::<P, M, D, U>(dynamics, &level, &jet, &found, tau)
             }
             Next::Not(tau) => Err(StepFailure::NotFinite.over(tau)),
             Next::Unknown { guard, tau } => Err(Failure::undecided(guard, tau)),
             Next::Lost(OtherUnit(unit)) => {
-                self.memory.unit = unit;
                 if here.steps > 0 {
                     self.cursor.active.clear();
                 }
-                self.expand_in_units(dynamics)
+                self.cursor.level = Some(level.kept());
+                self.cursor.state = self.last_shown(dynamics, &level, &here, start);
+                self.memory.stopped = Some(here.state);
+                self.memory.unit = unit;
+                return self.expand_in_units(dynamics);
             }
+        };
+        if ended.is_err() {
+            self.cursor.state = self.last_shown(dynamics, &level, &here, start);
         }
+        ended
+    }
+
+    /// The last point of steps from `start` as an observer is shown it: on the level.
+    #[cold]
+    #[inline(never)]
+    fn last_shown<const M: usize, D: Dynamics<f64, N, M>>(
+        &self,
+        dynamics: &D,
+        level: &Level<N, M>,
+        here: &Here<N>,
+        start: State<N>,
+    ) -> State<N> {
+        if here.steps == 0 {
+            return start;
+        }
+        let how = (self.method.corrects_level(), true);
+        level.reached(dynamics, here.time, here.state, &filled(0.0), how)
+    }
+
+    /// Shows a point, on the level, if something `left` it off the level after a step over that; and
+    /// whether steps end there.
+    #[cold]
+    #[inline(never)]
+    fn show<const M: usize, D: Dynamics<f64, N, M>>(
+        &mut self,
+        dynamics: &D,
+        level: Level<N, M>,
+        (time, mut state): (Time, State<N>),
+        left: Option<Vector<f64, N>>,
+    ) -> (State<N>, ControlFlow<()>) {
+        if let Some(displacement) = left {
+            state = level.reached(dynamics, time, state, &displacement, (true, true));
+        }
+        let goes_on = self.sink.point(time, &state);
+        (state, goes_on)
     }
 
     /// The same in any unit of time, not by straight-line code.
@@ -96,10 +143,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     fn steps<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
         &mut self,
         dynamics: &D,
-        mut level: Level<N, M>,
+        level: &mut Level<N, M>,
         jet: &mut Jet<D, U, N, M, P>,
         here: &mut Here<N>,
-    ) -> Next<N, M> {
+    ) -> Next<N> {
         let end = self.until;
         let fraction = self.memory.fraction;
         let corrects = self.method.corrects_level();
@@ -113,34 +160,30 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 Err(other) => return Next::Lost(other),
             };
             let mut part = Part::WHOLE;
-            let (tau, time, mut state) = loop {
+            let (tau, time, is_last, mut state) = loop {
                 let size = part.share * wanted;
-                let (tau, time, _) = step_to(dynamics.is_autonomous(), here.time, size, end);
+                let (tau, time, is_last) = step_to(dynamics.is_autonomous(), here.time, size, end);
                 if !(tau > 0.0 && time != here.time) {
                     return Next::Not(size);
                 }
                 let state = here.state.after(&jet.increment(tau));
                 if !<D::Guards as Guards<f64, N>>::MAY_END {
-                    break (tau, time, state);
+                    break (tau, time, is_last, state);
                 }
                 let end = (tau, time, &state);
                 match self.look_ahead::<P, M, D, U>(dynamics, jet, here, end, part) {
-                    Ahead::Free => break (tau, time, state),
-                    Ahead::Crossing(found) => return Next::Crossing { found, tau, level },
+                    Ahead::Free => break (tau, time, is_last, state),
+                    Ahead::Crossing(found) => return Next::Crossing { found, tau },
                     Ahead::Undecided(shorter) => part = shorter,
                     Ahead::Unknown(guard) => return Next::Unknown { guard, tau },
                 }
             };
             if self.sink.next_output().is_some() {
-                self.outputs_along::<P, M, D, U>(dynamics, &level, jet, here, (tau, time));
+                self.outputs_along::<P, M, D, U>(dynamics, *level, jet, *here, (tau, time));
             }
-            state = level.reached(
-                dynamics,
-                time,
-                state,
-                &(state.x - here.state.x),
-                (corrects, true),
-            );
+            let displacement = state.x - here.state.x;
+            let how = (corrects, true);
+            let left = level.nearly_reached(dynamics, time, &mut state, &displacement, how);
             if !is_finite(&state.x) {
                 return Next::Not(tau);
             }
@@ -151,8 +194,15 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             if here.steps.is_multiple_of(RESCALING) {
                 level.rescale(dynamics, here.time.value, &here.state);
             }
-            if self.sink.point(here.time, &here.state).is_break() {
-                return Next::Stopped(level);
+            if is_last || self.sink.listens() {
+                let left = left.then_some(displacement);
+                let (shown, goes_on) = self.show(dynamics, *level, (time, state), left);
+                if is_last {
+                    here.state = shown;
+                }
+                if goes_on.is_break() {
+                    return Next::Stopped(shown);
+                }
             }
             jet.expand(dynamics, here.time.value, &here.state.x);
         }
@@ -160,17 +210,13 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
 }
 
 /// What comes after some steps.
-enum Next<const N: usize, const M: usize> {
+enum Next<const N: usize> {
     /// Nothing: the end time is reached.
     Finished,
-    /// Nothing more, by the sink's wish.
-    Stopped(Level<N, M>),
+    /// Nothing more, by the sink's wish, which was shown this state.
+    Stopped(State<N>),
     /// A step over `tau` in which a guard is met.
-    Crossing {
-        found: Found,
-        tau: f64,
-        level: Level<N, M>,
-    },
+    Crossing { found: Found, tau: f64 },
     /// A step of this size that cannot be made.
     Not(f64),
     /// A step over `tau` of which it cannot be decided whether it meets a guard.
