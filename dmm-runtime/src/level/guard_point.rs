@@ -248,6 +248,11 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             }
             point.shift((&displacement, delta), moves);
             point.read(dynamics, guard);
+            // what is left now is a rounding error
+            moves = moves.and(size.above(small));
+            if !moves.any() {
+                break;
+            }
             before = size;
         }
         let mut moves = used;
