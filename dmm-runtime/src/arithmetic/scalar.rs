@@ -63,6 +63,56 @@ pub trait Scalar:
     fn products_by_column<const W: usize>(a: &[Self], b: &[Self]) -> [Self; W] {
         rows::products(Self::from_f64(0.0), Self::fused, a, b)
     }
+    /// u + v of four scalars.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn four_sums(u: [Self; 4], v: [Self; 4]) -> [Self; 4] {
+        let mut four = u;
+        for i in 0..4 {
+            four[i] = u[i] + v[i];
+        }
+        four
+    }
+    /// u − v of four scalars.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn four_differences(u: [Self; 4], v: [Self; 4]) -> [Self; 4] {
+        let mut four = u;
+        for i in 0..4 {
+            four[i] = u[i] - v[i];
+        }
+        four
+    }
+    /// u v of four scalars.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn four_products(u: [Self; 4], v: [Self; 4]) -> [Self; 4] {
+        let mut four = u;
+        for i in 0..4 {
+            four[i] = u[i] * v[i];
+        }
+        four
+    }
+    /// −u of four scalars.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn four_negatives(u: [Self; 4]) -> [Self; 4] {
+        let mut four = u;
+        for i in 0..4 {
+            four[i] = -u[i];
+        }
+        four
+    }
+    /// u·v + w of four scalars; see [`Scalar::fused`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn four_fused(u: [Self; 4], v: [Self; 4], w: [Self; 4]) -> [Self; 4] {
+        let mut four = u;
+        for i in 0..4 {
+            four[i] = u[i].fused(v[i], w[i]);
+        }
+        four
+    }
     /// u, where a chain of operations is so long that it is better interrupted. (Of several
     /// scalars at once the compiler finds only ten operations or so that belong together.)
     #[inline(always)]

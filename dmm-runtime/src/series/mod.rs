@@ -5,16 +5,21 @@
 //! result itself (Jorba & Zou, Experimental Mathematics 14, 2005, proposition 2.1). So all
 //! series of a system advance together, one order at a time.
 //!
+//! What coefficient k of an argument adds is added last, by one fused operation: everything else of
+//! order k is known an order before, and the chain from order to order is as short as it can be.
+//!
 //! The order is an [`Order`]: a constant of the type, so that the sums are unrolled into
 //! straight-line code, or a number. A number comes with a unit of time σ: the coefficients are
 //! those of (h/σ)ᵏ then.
 
+mod four;
 mod sums;
 #[cfg(test)]
 mod tests;
 mod unroll;
 
-pub use sums::{half_sums, inner_sums, row, set_row};
+pub use four::{Arithmetic, Four, four, set_four};
+pub use sums::{half_sums, inner_sums, row};
 pub use unroll::{Choice, Coefficients, Rolled, Straight, Unroll};
 
 use crate::arithmetic::Scalar;
@@ -85,8 +90,8 @@ const INVERSE: [f64; MOST_COEFFICIENTS + 1] = {
 
 /// 1/k, for k ≥ 1.
 #[inline(always)]
-fn inverse<S: Scalar>(k: usize) -> S {
-    S::from_f64(INVERSE[k])
+fn inverse<S: Arithmetic>(k: usize) -> S {
+    S::of(INVERSE[k])
 }
 
 /// σ/(k + 1): what turns a coefficient of ẋ into the next one of x.
@@ -107,17 +112,17 @@ pub fn next_step<S: Scalar, K: Order>(k: K) -> S {
 /// side, and LLVM would otherwise join their recurrences, each of which waits for those before
 /// it, in vectors, whose shuffles make the chain a fifth longer.
 #[inline(always)]
-pub fn scaled<S: Scalar, K: Order>(k: K, u: S, s: S) -> S {
+pub fn scaled<S: Arithmetic, K: Order>(k: K, u: S, s: S) -> S {
     if !K::IS_FIXED || k.get().is_multiple_of(2) {
         u * s
     } else {
-        u.fused(s, S::from_f64(0.0))
+        u.times_plus(s, S::of(0.0))
     }
 }
 
 /// Coefficient k of u + c.
 #[inline(always)]
-pub fn plus<S: Scalar, K: Order>(k: K, u: S, c: S) -> S {
+pub fn plus<S: Arithmetic, K: Order>(k: K, u: S, c: S) -> S {
     if k.get() == 0 { u + c } else { u }
 }
 
@@ -139,8 +144,8 @@ pub fn time<S: Scalar, K: Order>(k: K, t: S) -> S {
 
 /// Coefficient k of k uₖ, of h du/dh.
 #[inline(always)]
-pub fn derivative<S: Scalar, K: Order>(k: K, u: S) -> S {
-    S::from_f64(k.get() as f64) * u
+pub fn derivative<S: Arithmetic, K: Order>(k: K, u: S) -> S {
+    S::of(k.get() as f64) * u
 }
 
 /// A sum before term j, in parts of so many terms.
@@ -155,27 +160,32 @@ fn in_parts<S: Scalar>(j: usize, length: usize, sum: S) -> S {
 
 /// Coefficient k of uv from the [`inner_sums`] of u and v, and from u₀, uₖ, v₀ and vₖ.
 #[inline(always)]
-pub fn product_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], [v0, vk]: [S; 2], sum: S) -> S {
+pub fn product_from<S: Arithmetic, K: Order>(
+    k: K,
+    [u0, uk]: [S; 2],
+    [v0, vk]: [S; 2],
+    sum: S,
+) -> S {
     if k.get() == 0 {
         return uk * vk;
     }
-    u0.fused(vk, uk.fused(v0, sum))
+    u0.times_plus(vk, uk.times_plus(v0, sum))
 }
 
 /// Coefficient k of u² from the [`half_sums`] of u, and from u₀, uₖ and the one of order ⌊k/2⌋.
 #[inline(always)]
-pub fn square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
+pub fn square_from<S: Arithmetic, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
     if k.get() == 0 {
-        return uk.squared();
+        return uk.square();
     }
-    twice(k, middle, u0.fused(uk, sum))
+    (u0 + u0).times_plus(uk, twice(k, middle, sum))
 }
 
 /// A sum of products uⱼ uₖ₋ⱼ from the terms with j < k/2 and the coefficient of order ⌊k/2⌋.
 #[inline(always)]
-fn twice<S: Scalar, K: Order>(k: K, middle: S, sum: S) -> S {
+fn twice<S: Arithmetic, K: Order>(k: K, middle: S, sum: S) -> S {
     if k.get().is_multiple_of(2) {
-        S::from_f64(2.0).fused(sum, middle.squared())
+        S::of(2.0).times_plus(sum, middle.square())
     } else {
         sum + sum
     }
@@ -183,16 +193,16 @@ fn twice<S: Scalar, K: Order>(k: K, middle: S, sum: S) -> S {
 
 /// Coefficient k of u²/2 from the [`half_sums`] of u, and from u₀, uₖ and the one of order ⌊k/2⌋.
 #[inline(always)]
-pub fn half_square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
-    let half = S::from_f64(0.5);
+pub fn half_square_from<S: Arithmetic, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, sum: S) -> S {
+    let half = S::of(0.5);
     if k.get() == 0 {
-        return half * uk.squared();
+        return half * uk.square();
     }
     let is_even = k.get().is_multiple_of(2);
-    u0.fused(
+    u0.times_plus(
         uk,
         if is_even {
-            (middle * half).fused(middle, sum)
+            (middle * half).times_plus(middle, sum)
         } else {
             sum
         },
@@ -201,38 +211,39 @@ pub fn half_square_from<S: Scalar, K: Order>(k: K, [u0, uk]: [S; 2], middle: S, 
 
 /// Coefficient k of w = u/v from uₖ, vₖ, w₀ and the [`inner_sums`] of v and w; `inverse` is 1/v₀.
 #[inline(always)]
-pub fn quotient_from<S: Scalar, K: Order>(k: K, u: S, v: S, first: S, inverse: S, sum: S) -> S {
+pub fn quotient_from<S: Arithmetic, K: Order>(k: K, u: S, v: S, first: S, inverse: S, sum: S) -> S {
     if k.get() == 0 {
         return u * inverse;
     }
-    (-v).fused(first, u - sum) * inverse
+    (-v).times_plus(first, u - sum) * inverse
 }
 
 /// Coefficient k ≥ 1 of w = √u from uₖ, the one of w of order ⌊k/2⌋ and the [`half_sums`] of w;
 /// `inverse` is 1/(2w₀).
 #[inline(always)]
-pub fn square_root_from<S: Scalar, K: Order>(k: K, u: S, middle: S, inverse: S, sum: S) -> S {
+pub fn square_root_from<S: Arithmetic, K: Order>(k: K, u: S, middle: S, inverse: S, sum: S) -> S {
     (u - twice(k, middle, sum)) * inverse
 }
 
-/// Coefficient k ≥ 1 of ∫ v du from dₖ of d = h du/dh, v₀ and the [`inner_sums`] of d and v.
+/// Coefficient k ≥ 1 of ∫ v du from uₖ, v₀ and the [`inner_sums`] of h du/dh and v.
 #[inline(always)]
-pub fn integral_from<S: Scalar, K: Order>(k: K, d: S, first: S, sum: S) -> S {
-    d.fused(first, sum) * inverse(k.get())
+pub fn integral_from<S: Arithmetic, K: Order>(k: K, u: S, first: S, sum: S) -> S {
+    u.times_plus(first, sum * inverse(k.get()))
 }
 
-/// Coefficient k ≥ 1 of w = u^a from dₖ of d = h du/dh, w₀ and the [`inner_sums`] of w and d, and of
-/// h dw/dh and u; `inverse` is 1/u₀.
+/// Coefficient k ≥ 1 of w = u^a from uₖ, w₀ and the [`inner_sums`] of w and h du/dh, and of h dw/dh
+/// and u; `inverse_base` is 1/u₀.
 #[inline(always)]
-pub fn power_from<S: Scalar, K: Order>(
+pub fn power_from<S: Arithmetic, K: Order>(
     k: K,
-    d: S,
+    u: S,
     a: S,
     first: S,
     inverse_base: S,
     [sum, other]: [S; 2],
 ) -> S {
-    (a.fused(d.fused(first, sum), -other)) * (inverse_base * inverse(k.get()))
+    let rest = a.times_plus(sum, -other) * (inverse_base * inverse(k.get()));
+    u.times_plus(a * first * inverse_base, rest)
 }
 
 /// Coefficient k of uv. The newest coefficients enter last, so that the sum of the others need
@@ -335,7 +346,7 @@ pub fn power<S: Scalar, K: Order, const P: usize>(
     for j in (1..k.div_ceil(2)).rev() {
         sum = power_term(k, k - j, [u, w], a, power_term(k, j, [u, w], a, sum));
     }
-    power_term(k, 0, [u, w], a, sum) * (inverse_base * inverse(k))
+    u[k].fused(a * w[0] * inverse_base, sum * (inverse_base * inverse(k)))
 }
 
 /// A sum with (a (k − j) − j) wⱼ uₖ₋ⱼ.
@@ -351,27 +362,22 @@ fn power_term<S: Scalar, const P: usize>(
     (weight * w[j]).fused(u[k - j], sum)
 }
 
-/// Coefficient k ≥ 1 of ∫ v du from d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …
+/// Coefficient k ≥ 1 of ∫ v du from uₖ and d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …
 #[inline(always)]
-pub fn integral<S: Scalar, K: Order, const P: usize>(k: K, d: &[S; P], v: &[S; P]) -> S {
-    integral_from(k, d[k.get()], v[0], inner(k, d, v))
+pub fn integral<S: Scalar, K: Order, const P: usize>(k: K, u: S, d: &[S; P], v: &[S; P]) -> S {
+    integral_from(k, u, v[0], inner(k, d, v))
 }
 
-/// Coefficient k ≥ 1 of e = d/v from dₖ, where e₀ = 0 and `inverse` is 1/v₀: with
-/// d = h du/dh that is h dw/dh of w = ∫ du/v, of ln u with v = u, of atan u with v = 1 + u² …
+/// Coefficient k ≥ 1 of w = ∫ du/v from uₖ and e = h dw/dh, where e₀ = 0 and `inverse` is 1/v₀: of
+/// ln u with v = u, of atan u with v = 1 + u² …
 #[inline(always)]
-pub fn slope<S: Scalar, K: Order, const P: usize>(
+pub fn primitive<S: Scalar, K: Order, const P: usize>(
     k: K,
-    d: S,
+    u: S,
     v: &[S; P],
     e: &[S; P],
-    inverse: S,
+    inverse_divisor: S,
 ) -> S {
-    (d - inner(k, v, e)) * inverse
-}
-
-/// Coefficient k ≥ 1 of w from e = h dw/dh.
-#[inline(always)]
-pub fn antiderivative<S: Scalar, K: Order>(k: K, e: S) -> S {
-    e * inverse(k.get())
+    let rest = inner(k, v, e) * (inverse_divisor * inverse(k.get()));
+    u.fused(inverse_divisor, -rest)
 }

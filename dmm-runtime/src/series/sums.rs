@@ -38,17 +38,6 @@ pub fn row<S, const P: usize, const W: usize>(table: &[[S; P]], order: usize) ->
     &rows[order]
 }
 
-/// Sets row k of a table to the coefficients of order k, as many as there are.
-#[inline(always)]
-pub fn set_row<S: Scalar, K: Order, const P: usize, const B: usize>(
-    k: K,
-    table: &mut [[S; P]],
-    row: [S; B],
-) {
-    let (k, lanes) = (k.get(), table.len());
-    table.as_flattened_mut()[k * lanes..][..B].copy_from_slice(&row);
-}
-
 /// Σ aⱼ bₙ₋₁₋ⱼ of two slices of n values, by four parts that do not wait for each other.
 #[inline(always)]
 pub(super) fn single<S: Scalar>(a: &[S], b: &[S]) -> S {

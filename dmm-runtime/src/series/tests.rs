@@ -25,7 +25,7 @@ fn sample(seed: u64) -> [f64; P] {
 }
 
 /// The series that `coefficient` gives from the coefficients below.
-fn series(start: f64, coefficient: impl Fn(usize, &[f64; P]) -> f64) -> [f64; P] {
+fn series(start: f64, mut coefficient: impl FnMut(usize, &[f64; P]) -> f64) -> [f64; P] {
     let mut w = [0.0; P];
     w[0] = start;
     for k in 1..P {
@@ -82,8 +82,43 @@ fn sums_in_lanes_are_those_of_each() {
         }
         let [rows_a, rows_b] = [&a, &b].map(|of| std::array::from_fn(|lane| of[lane][k]));
         let (first, second) = tables.split_at_mut(W);
-        set_row::<_, _, P, W>(k, first, rows_a);
-        set_row::<_, _, P, W>(k, second, rows_b);
+        for lane in (0..W).step_by(4) {
+            set_four(k, first, lane, Four::of_lanes(&rows_a, lane));
+            set_four(k, second, lane, Four::of_lanes(&rows_b, lane));
+        }
+        assert_eq!(row::<_, P, W>(first, k), &rows_a);
+        let four = four::<_, P, W>(second, k, 4).0;
+        assert_eq!(four[..], rows_b[4..8]);
+    }
+}
+
+#[test]
+fn recurrences_side_by_side_are_those_of_each() {
+    let numbers = |seed: u64| -> [f64; 4] { std::array::from_fn(|i| sample(seed)[2 + i] + 1.0) };
+    let [u, u0, v, v0, sum, middle] = [11, 12, 13, 14, 15, 16].map(numbers);
+    let [f, f0, g, g0, s, m] = [u, u0, v, v0, sum, middle].map(Four);
+    let each = |of: &dyn Fn(usize) -> f64| -> [f64; 4] { std::array::from_fn(of) };
+    for k in 1..6 {
+        let product = |i: usize| product_from(k, [u0[i], u[i]], [v0[i], v[i]], sum[i]);
+        assert_eq!(product_from(k, [f0, f], [g0, g], s).0, each(&product));
+        let square = |i: usize| square_from(k, [u0[i], u[i]], middle[i], sum[i]);
+        assert_eq!(square_from(k, [f0, f], m, s).0, each(&square));
+        let half = |i: usize| half_square_from(k, [u0[i], u[i]], middle[i], sum[i]);
+        assert_eq!(half_square_from(k, [f0, f], m, s).0, each(&half));
+        let quotient = |i: usize| quotient_from(k, u[i], v[i], u0[i], v0[i], sum[i]);
+        assert_eq!(quotient_from(k, f, g, f0, g0, s).0, each(&quotient));
+        let root = |i: usize| square_root_from(k, u[i], middle[i], v0[i], sum[i]);
+        assert_eq!(square_root_from(k, f, m, g0, s).0, each(&root));
+        let integral = |i: usize| integral_from(k, u[i], v0[i], sum[i]);
+        assert_eq!(integral_from(k, f, g0, s).0, each(&integral));
+        let power = |i: usize| power_from(k, u[i], v[i], u0[i], v0[i], [sum[i], middle[i]]);
+        assert_eq!(power_from(k, f, g, f0, g0, [s, m]).0, each(&power));
+        assert_eq!(plus(k, f, -g).0, each(&|i| plus(k, u[i], -v[i])));
+        assert_eq!(derivative(k, f).0, each(&|i| derivative(k, u[i])));
+        assert_eq!(
+            scaled(k, f - g, s).0,
+            each(&|i| scaled(k, u[i] - v[i], sum[i]))
+        );
     }
 }
 
@@ -104,10 +139,13 @@ fn quotients_roots_and_powers_are_inverse_to_products() {
 fn the_logarithm_is_inverse_to_the_exponential() {
     let u = sample(5);
     let d = derived(&u);
-    let w = series(u[0].exp(), |k, w| integral(k, &d, w));
-    let dw = derived(&w);
-    let e = series(0.0, |k, e| slope(k, dw[k], &w, e, 1.0 / w[0]));
-    let ln = series(w[0].ln(), |k, _| antiderivative(k, e[k]));
+    let w = series(u[0].exp(), |k, w| integral(k, u[k], &d, w));
+    let mut slopes = [0.0; P];
+    let ln = series(w[0].ln(), |k, _| {
+        let ln = primitive(k, w[k], &w, &slopes, 1.0 / w[0]);
+        slopes[k] = derivative(k, ln);
+        ln
+    });
     assert_close(&ln, &u);
 }
 
@@ -118,7 +156,7 @@ fn sine_and_cosine_lie_on_the_circle() {
     let (mut s, mut c) = ([0.0; P], [0.0; P]);
     (s[0], c[0]) = u[0].sin_cos();
     for k in 1..P {
-        (s[k], c[k]) = (integral(k, &d, &c), -integral(k, &d, &s));
+        (s[k], c[k]) = (integral(k, u[k], &d, &c), -integral(k, u[k], &d, &s));
     }
     let one = std::array::from_fn(|k| square(k, &s) + square(k, &c));
     assert_close(&one, &std::array::from_fn(|k| constant(k, 1.0)));

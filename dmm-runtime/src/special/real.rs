@@ -1,5 +1,7 @@
 //! Doubles as scalars.
 
+use wide::f64x4;
+
 use crate::arithmetic::Scalar;
 use crate::arithmetic::error_free::HAS_FUSED;
 use crate::arithmetic::rows;
@@ -40,6 +42,33 @@ impl Scalar for f64 {
     #[inline(always)]
     fn products_by_column<const W: usize>(a: &[f64], b: &[f64]) -> [f64; W] {
         rows::products_by_vectors(a, b)
+    }
+
+    #[inline(always)]
+    fn four_sums(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
+        (f64x4::new(u) + f64x4::new(v)).to_array()
+    }
+
+    #[inline(always)]
+    fn four_differences(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
+        (f64x4::new(u) - f64x4::new(v)).to_array()
+    }
+
+    #[inline(always)]
+    fn four_products(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
+        (f64x4::new(u) * f64x4::new(v)).to_array()
+    }
+
+    #[inline(always)]
+    fn four_negatives(u: [f64; 4]) -> [f64; 4] {
+        (-f64x4::new(u)).to_array()
+    }
+
+    #[inline(always)]
+    fn four_fused(u: [f64; 4], v: [f64; 4], w: [f64; 4]) -> [f64; 4] {
+        f64x4::new(u)
+            .mul_add(f64x4::new(v), f64x4::new(w))
+            .to_array()
     }
 
     #[inline]

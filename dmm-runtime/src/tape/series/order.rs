@@ -189,7 +189,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         } else {
             let d = self.array(derivative);
             let [s, c] = places.map(|place| self.array(place));
-            let (sine, cosine) = (series::integral(k, d, c), series::integral(k, d, s));
+            let [sine, cosine] = [c, s].map(|of| series::integral(k, u, d, of));
             [sine, if is_negative { -cosine } else { cosine }]
         };
         for (place, value) in places.into_iter().zip(values) {
@@ -226,7 +226,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
                         (if negative { -p } else { p }).exp_product(self.t)
                     }
                     (0, None) => u.exp(),
-                    _ => series::integral(k, self.array(derivative), self.array(own)),
+                    _ => series::integral(k, u, self.array(derivative), self.array(own)),
                 }
             }
             FunctionStep::Tangent {
@@ -241,7 +241,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
                 self.derivative(u, derivative);
                 let value = match at {
                     0 => call(function, u),
-                    _ => series::integral(k, self.array(derivative), self.array(partner)),
+                    _ => series::integral(k, u, self.array(derivative), self.array(partner)),
                 };
                 self.set(own, at, value);
                 let square = series::square(k, self.array(own));
@@ -317,7 +317,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         self.derivative(product, derivative);
         match at {
             0 => base.powf(v),
-            _ => series::integral(k, self.array(derivative), self.array(own)),
+            _ => series::integral(k, product, self.array(derivative), self.array(own)),
         }
     }
 
@@ -331,11 +331,11 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
             self.set(integral.slope, 0, S::from_f64(0.0));
             return call(integral.function, u);
         }
-        let d = series::derivative(k, if integral.is_negative { -u } else { u });
+        let u = if integral.is_negative { -u } else { u };
         let (v, e) = (self.array(integral.divisor), self.array(integral.slope));
-        let slope = series::slope(k, d, v, e, inverse);
-        self.set(integral.slope, at, slope);
-        series::antiderivative(k, slope)
+        let w = series::primitive(k, u, v, e, inverse);
+        self.derivative(w, integral.slope);
+        w
     }
 
     #[inline(always)]

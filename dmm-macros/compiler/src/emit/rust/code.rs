@@ -92,6 +92,16 @@ impl<'a> Block<'a> {
         self.expressions.insert(id, Expression::atom(quote!(#name)));
     }
 
+    /// Gives `id` the value of `tokens`, which are no operation.
+    pub(super) fn set_value(&mut self, id: Id, tokens: TokenStream) {
+        self.expressions.insert(id, Expression::atom(tokens));
+    }
+
+    /// Whether the value of `id` is there, or what it is made of.
+    pub(super) fn has_value(&self, id: Id) -> bool {
+        self.expressions.contains_key(&id)
+    }
+
     /// Gives the value of `id` a name, if it has none.
     pub(super) fn name_value(&mut self, id: Id) {
         self.require(id);

@@ -1,5 +1,9 @@
 //! Which recurrence a node has.
 
+use std::collections::HashMap;
+
+use egg::Language;
+
 use super::super::lower::Lowered;
 use super::recurrence::{Base, Place, Primitive, Recurrence, Shifted};
 use super::slots::{Slot, Slots};
@@ -10,9 +14,33 @@ use crate::algebra::{Equation, Function, Id, Math};
 pub(super) struct Choice<'a> {
     pub(super) lowered: &'a Lowered,
     pub(super) slots: Slots,
+    /// How many operations follow on each other until a node that changes with the time has its
+    /// coefficient.
+    depths: HashMap<Id, usize>,
 }
 
-impl Choice<'_> {
+impl<'a> Choice<'a> {
+    /// That of the recurrences of the nodes `moving`, children before parents.
+    pub(super) fn new(lowered: &'a Lowered, slots: Slots, moving: &[Id]) -> Self {
+        let mut depths = HashMap::new();
+        for &id in moving {
+            let children = lowered.dag()[id].children().iter();
+            let below = children.filter_map(|child| depths.get(child)).max();
+            depths.insert(id, below.map_or(1, |below| below + 1));
+        }
+        Self {
+            lowered,
+            slots,
+            depths,
+        }
+    }
+
+    /// How many operations follow on each other until a node has its coefficient; none where it is
+    /// constant in time.
+    pub(super) fn depth(&self, id: Id) -> usize {
+        self.depths.get(&id).copied().unwrap_or(0)
+    }
+
     /// The coefficients of nodes, in their order.
     pub(super) fn coefficients(&self, nodes: impl Iterator<Item = Id>) -> Vec<Coefficient> {
         let mut computed = Vec::new();
@@ -70,7 +98,9 @@ impl Choice<'_> {
             },
             Math::Mul([a, b]) if a == b => Recurrence::Square(self.node(a)),
             Math::Mul([a, b]) if self.is_moving(a) && self.is_moving(b) => {
-                Recurrence::Product([a, b].map(|one| self.node(one)))
+                let mut factors = [a, b];
+                factors.sort_by_key(|&one| self.depth(one));
+                Recurrence::Product(factors.map(|one| self.node(one)))
             }
             Math::Div([a, b]) if self.is_moving(b) => Recurrence::Quotient {
                 numerator: a,

@@ -10,6 +10,7 @@
 //! order k of a root ẋᵢ = f is the coefficient k + 1 of xᵢ: that of f divided by k + 1.
 
 mod choice;
+mod packs;
 mod recurrence;
 mod scaled;
 mod shortest;
@@ -17,16 +18,19 @@ mod slots;
 mod tables;
 
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
 use egg::Language;
 
 use self::choice::Choice;
+use self::packs::Packed;
 use self::scaled::Scaling;
 use self::slots::Slots;
 use super::function::Functions;
 use super::inputs::{Input, at_point, inputs};
 use super::lower::Lowered;
 use crate::algebra::{Id, Name};
+pub use packs::{LANES, fused_term};
 pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted, Sum};
 pub use scaled::{Factor, Later, Scaled};
 pub(super) use shortest::for_series;
@@ -57,6 +61,8 @@ pub struct Series {
     /// The coefficients of the nodes that change with the time, in the order in which they are
     /// computed.
     pub coefficients: Vec<Coefficient>,
+    /// Those that are computed side by side, up to [`LANES`] of them, whose recurrences are alike.
+    pub packs: Vec<Range<usize>>,
     /// What is made of the roots.
     pub results: Vec<SeriesResult>,
 }
@@ -160,56 +166,57 @@ impl<'a> Parts<'a> {
         let stored = functions.stored.nodes();
         let given = inputs.iter().map(|input| input.node);
         let known: BTreeSet<Id> = stored.chain(given).collect();
+        let moving = moving(lowered, roots);
+        let slots = Slots::new(lowered, &inputs, &moving, first);
         Self {
             operations: lowered.order(roots, |id| known.contains(&id)),
-            choice: Choice {
-                lowered,
-                slots: Slots::new(lowered, &inputs, &moving(lowered, roots), first),
-            },
+            choice: Choice::new(lowered, slots, &moving),
             inputs,
             roots: roots.to_vec(),
             first,
         }
     }
 
-    /// How many operations follow on each other until a node has its coefficient.
-    fn depths(&self) -> HashMap<Id, usize> {
-        let mut depths: HashMap<Id, usize> = HashMap::new();
-        let lowered = self.choice.lowered;
-        for id in moving(lowered, &self.roots) {
-            let below = |one: &Id| depths.get(one).copied().unwrap_or(0);
-            let depth = 1 + lowered.dag()[id]
-                .children()
-                .iter()
-                .map(below)
-                .max()
-                .unwrap_or(0);
-            depths.insert(id, depth);
+    /// How often a node is an operand or a root.
+    fn uses(&self) -> HashMap<Id, usize> {
+        let dag = self.choice.lowered.dag();
+        let mut uses: HashMap<Id, usize> = HashMap::new();
+        for &id in &self.operations {
+            dag[id].for_each(|child| *uses.entry(child).or_default() += 1);
         }
-        depths
+        for &root in &self.roots {
+            *uses.entry(root).or_default() += 1;
+        }
+        uses
     }
 
     /// The series with the coefficients of the nodes that are not `folded`.
     fn series(self, results: Vec<SeriesResult>, folded: &BTreeSet<Id>) -> Series {
-        let moving = moving(self.choice.lowered, &self.roots).into_iter();
-        let moving = moving.filter(|id| !folded.contains(id));
+        let lowered = self.choice.lowered;
+        let mut moving = moving(lowered, &self.roots);
+        moving.retain(|id| !folded.contains(id));
         let slots = &self.choice.slots;
         let sums = slots.sums;
         let end = self.first + slots.count();
-        let coefficients = self.choice.coefficients(moving);
-        let tables = match sums {
-            Sums::Straight => Tables::none(self.first..end),
-            Sums::Rolled => {
-                let depths = self.depths();
-                let depth = |of: &Coefficient| depths[&of.node];
-                Tables::new(&coefficients, &results, self.first..end, depth)
-            }
-        };
+        let depth = |id: Id| self.choice.depth(id);
+        let uses = self.uses();
+        let Packed { nodes, mut packs } = Packed::new((lowered, sums), &moving, depth, &uses);
+        let coefficients = self.choice.coefficients(nodes.into_iter());
+        packs.retain(|pack| {
+            let mut recurrences = coefficients[pack.clone()].iter().map(|one| one.recurrence);
+            recurrences.next().is_some_and(|first| {
+                let kind = std::mem::discriminant(&first);
+                recurrences.all(|other| std::mem::discriminant(&other) == kind)
+                    && !matches!(first, Recurrence::Computed(_))
+            })
+        });
+        let tables = Tables::new((&coefficients, &packs), &results, self.first..end, sums);
         Series {
             slots: end,
             sums,
             tables,
             coefficients,
+            packs,
             inputs: self.inputs,
             operations: self.operations,
             roots: self.roots,

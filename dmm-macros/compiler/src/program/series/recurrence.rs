@@ -22,7 +22,7 @@ pub enum Recurrence {
     Shifted(Shifted),
     /// w = u²
     Square(Place),
-    /// w = u v
+    /// w = u v, the one that is known last in the second place
     Product([Place; 2]),
     /// w = u/v
     Quotient {

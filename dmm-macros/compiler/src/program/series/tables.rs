@@ -4,11 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use super::packs::LANES;
 use super::recurrence::{Place, Sum};
-use super::{Coefficient, SeriesResult};
-
-/// Tables have a multiple of so many lanes.
-const LANES: usize = 4;
+use super::{Coefficient, SeriesResult, Sums};
 
 /// Where the coefficients of slots are: in arrays, or in lanes of tables, which take the place of as
 /// many arrays as they have lanes.
@@ -18,6 +16,10 @@ pub struct Tables {
     pub inner: Vec<[Place; 2]>,
     /// The sums Σ uⱼ uₖ₋ⱼ, by their lanes.
     pub half: Vec<Place>,
+    /// By pack, the first lanes of its sums.
+    pub packs: Vec<Vec<usize>>,
+    /// The first lanes of both kinds that belong to no pack.
+    pub first_single: [usize; 2],
     /// The numbers of the arrays of slots that have one.
     arrays: BTreeMap<Place, usize>,
     /// The first lanes of the other slots.
@@ -36,39 +38,48 @@ pub struct Lane {
 }
 
 impl Tables {
-    /// No tables: an array for each slot.
-    pub(super) fn none(slots: Range<usize>) -> Self {
-        Self {
-            arrays: slots
-                .clone()
-                .map(|slot| (Place::Slot(slot), slot))
-                .collect(),
-            first: slots.end,
-            ..Self::default()
-        }
-    }
-
-    /// Those of sums that run together. Sums of equal operations, of nodes as deep, lie side by side.
+    /// Those of sums that run together: first those of packs, each in as many lanes as a vector has, then the
+    /// others, those of nodes as deep side by side.
     pub(super) fn new(
-        coefficients: &[Coefficient],
+        (coefficients, packs): (&[Coefficient], &[Range<usize>]),
         results: &[SeriesResult],
         slots: Range<usize>,
-        depth: impl Fn(&Coefficient) -> usize,
+        sums: Sums,
     ) -> Self {
         let mut tables = Self::default();
-        let mut of_nodes: Vec<&Coefficient> = coefficients.iter().collect();
-        of_nodes.sort_by_cached_key(|one| depth(one));
-        let of_nodes = of_nodes.iter().flat_map(|one| one.recurrence.sums());
+        for pack in packs {
+            let sums: Vec<Vec<Sum>> = (coefficients[pack.clone()].iter())
+                .map(|one| one.recurrence.sums())
+                .collect();
+            let count = sums.first().map_or(0, Vec::len);
+            let lanes = (0..count).map(|number| tables.add_pack(sums.iter().map(|of| of[number])));
+            let lanes = lanes.collect();
+            tables.packs.push(lanes);
+        }
+        let in_packs: BTreeSet<usize> = packs.iter().cloned().flatten().collect();
+        let single = coefficients.iter().enumerate();
+        let single = single.filter(|(index, _)| !in_packs.contains(index));
+        let of_nodes = single.flat_map(|(_, one)| one.recurrence.sums());
         let all = of_nodes.chain(results.iter().flat_map(SeriesResult::sums));
-        let mut seen = BTreeSet::new();
-        for sum in all.filter(|sum| seen.insert(*sum)) {
-            match sum {
-                Sum::Inner(of) => tables.inner.push(of),
-                Sum::Half(of) => tables.half.push(of),
+        tables.first_single = [tables.inner.len(), tables.half.len()];
+        if sums == Sums::Rolled {
+            let mut seen = BTreeSet::new();
+            for sum in all.filter(|sum| seen.insert(*sum)) {
+                tables.add(sum);
             }
         }
         let recurrences = coefficients.iter().map(|one| one.recurrence);
-        let whole: BTreeSet<Place> = recurrences.flat_map(|one| one.whole_series()).collect();
+        let mut whole: BTreeSet<Place> = recurrences.flat_map(|one| one.whole_series()).collect();
+        if sums == Sums::Straight {
+            // what is in no pack has sums over arrays
+            let single = coefficients.iter().enumerate();
+            let single = single.filter(|(index, _)| !in_packs.contains(index));
+            let sums = single.flat_map(|(_, one)| one.recurrence.sums());
+            whole.extend(
+                sums.chain(results.iter().flat_map(SeriesResult::sums))
+                    .flat_map(places),
+            );
+        }
         let in_lanes: BTreeSet<Place> = tables.columns().into_iter().flatten().collect();
         let first = slots.start;
         let arrays = slots.map(Place::Slot);
@@ -84,6 +95,26 @@ impl Tables {
             }
         }
         tables
+    }
+
+    /// Gives a sum a lane.
+    fn add(&mut self, sum: Sum) {
+        match sum {
+            Sum::Inner(of) => self.inner.push(of),
+            Sum::Half(of) => self.half.push(of),
+        }
+    }
+
+    /// Gives the sums of a pack the lanes of a vector, all of them: the first of these lanes.
+    fn add_pack(&mut self, sums: impl Iterator<Item = Sum> + Clone) -> usize {
+        let lane = match sums.clone().next() {
+            Some(Sum::Half(_)) => self.half.len(),
+            _ => self.inner.len(),
+        };
+        for sum in sums.cycle().take(LANES) {
+            self.add(sum);
+        }
+        lane
     }
 
     /// The series of each table, by lane.
@@ -116,5 +147,13 @@ impl Tables {
     pub fn arrays(&self) -> usize {
         let [.., last] = self.ranges();
         last.end
+    }
+}
+
+/// The series that a sum is over.
+fn places(sum: Sum) -> Vec<Place> {
+    match sum {
+        Sum::Inner(of) => of.into(),
+        Sum::Half(of) => vec![of],
     }
 }

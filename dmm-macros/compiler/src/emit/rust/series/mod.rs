@@ -1,6 +1,7 @@
 //! The body of `advance`: the coefficients of one order of a [`Series`], with the recurrences of
 //! the runtime's module `series`.
 
+mod packs;
 mod recurrences;
 mod sums;
 mod writer;
@@ -85,8 +86,16 @@ pub(super) fn body(
     );
     let mut writer = Writer::new(scope, states, &series.tables, block.fusing(true));
     writer.sums();
-    for coefficient in &series.coefficients {
-        writer.coefficient(coefficient);
+    let mut packs = series.packs.iter().enumerate().peekable();
+    let mut index = 0;
+    while let Some(coefficient) = series.coefficients.get(index) {
+        if let Some((number, pack)) = packs.next_if(|(_, pack)| pack.start == index) {
+            writer.pack(number, &series.coefficients[pack.clone()]);
+            index = pack.end;
+        } else {
+            writer.coefficient(coefficient);
+            index += 1;
+        }
     }
     writer.keep_rows();
     let results = results(&mut writer, series, keep);
@@ -107,21 +116,27 @@ fn results(
 ) -> TokenStream {
     let scalar = writer.scope.scalar;
     let step = quote!(dmm::series::step::<#scalar, _>(k));
-    let values: Vec<TokenStream> = (series.results.iter())
-        .map(|result| match result {
-            SeriesResult::Value(root) => writer.value(*root),
-            SeriesResult::Solution { value, .. } => writer.scaled(value, step.clone()),
-        })
-        .collect();
-    let later: Vec<Option<TokenStream>> = (series.results.iter())
-        .map(|result| match result {
-            SeriesResult::Solution {
-                later: Some(later), ..
-            } => Some(writer.a_step_later(later, &step)),
-            _ => None,
-        })
-        .collect();
-    let statements = values.iter().zip(later).enumerate();
+    let mut scaled = Vec::new();
+    for result in &series.results {
+        if let SeriesResult::Solution { value, later } = result {
+            scaled.push(match later {
+                None => (value, step.clone()),
+                Some(later) => (&later.value, writer.scale_of_later(later, &step)),
+            });
+        }
+    }
+    let mut scaled = writer.scaled_together(&scaled).into_iter();
+    let mut values = Vec::new();
+    for result in &series.results {
+        values.push(match result {
+            SeriesResult::Value(root) => (writer.value(*root), None),
+            SeriesResult::Solution { later: None, .. } => (scaled.next().unwrap_or_default(), None),
+            SeriesResult::Solution { value, .. } => {
+                (writer.scaled(value, step.clone()), scaled.next())
+            }
+        });
+    }
+    let statements = values.iter().enumerate();
     statements
         .map(|(index, (value, later))| {
             let place = paths::count(index);

@@ -56,7 +56,7 @@ impl Writer<'_, '_> {
     }
 
     /// The reciprocal of `value`, taken at order zero.
-    fn inverse(&mut self, place: Place, value: &TokenStream) -> TokenStream {
+    pub(super) fn inverse(&mut self, place: Place, value: &TokenStream) -> TokenStream {
         let (slot, scalar) = (self.array(place), self.scope.scalar);
         let value = factor(value);
         self.block.push(quote! {
@@ -79,13 +79,13 @@ impl Writer<'_, '_> {
         let exponent = self.fixed(exponent);
         let later = match derivatives {
             Some([du, dw]) => {
-                let d = Self::call("derivative", &[u]);
+                let d = Self::call("derivative", &[u.clone()]);
                 self.set(du, &d);
                 let [first, second] = [Sum::Inner([own, du]), Sum::Inner([dw, base])]
                     .map(|sum| self.sums.get(&sum).cloned().unwrap_or_default());
-                let (d, w) = (self.newest(du), self.first(own));
+                let w = self.first(own);
                 let sums = quote!([#first, #second]);
-                Self::call("power_from", &[d, exponent, w, inverse, sums])
+                Self::call("power_from", &[u, exponent, w, inverse, sums])
             }
             None => {
                 let [u, w] = [base, own].map(|place| self.array(place));
@@ -96,7 +96,7 @@ impl Writer<'_, '_> {
     }
 
     /// u^c at order zero: by products and a root where c is a half of an integer.
-    fn power_at_start(&mut self, u: &TokenStream, exponent: Id) -> TokenStream {
+    pub(super) fn power_at_start(&mut self, u: &TokenStream, exponent: Id) -> TokenStream {
         let scalar = self.scope.scalar;
         let value = self.scope.lowered.dag().as_constant(exponent);
         let halves = value.and_then(|value| (value * value.denom()).to_integer().to_i32());
@@ -151,17 +151,22 @@ impl Writer<'_, '_> {
                 (base, product(&exponent, &quote!(#slot[0])))
             }
         };
-        let value = Self::call("derivative", &[logarithm_times]);
-        self.block.push(quote!(#d[at] = #value;));
-        let later = self.integral(derivative, own);
+        let product = self.block.unused_name("product");
+        let value = Self::call("derivative", &[quote!(#product)]);
+        self.block.push(quote! {
+            let #product = #logarithm_times;
+            #d[at] = #value;
+        });
+        let later = self.integral(&quote!(#product), derivative, own);
         quote!(if at == 0 { #scalar::powf(#base, #exponent) } else { #later })
     }
 
-    /// h du/dh
-    fn derivative(&mut self, argument: Id, place: Place) {
+    /// uₖ, and h du/dh
+    fn derivative(&mut self, argument: Id, place: Place) -> TokenStream {
         let u = self.value(argument);
-        let value = Self::call("derivative", &[u]);
+        let value = Self::call("derivative", &[u.clone()]);
         self.set(place, &value);
+        u
     }
 
     /// The recurrence of a function.
@@ -224,7 +229,7 @@ impl Writer<'_, '_> {
     }
 
     /// The value of a function at order zero.
-    fn start(&mut self, function: Function, argument: Id) -> TokenStream {
+    pub(super) fn start(&mut self, function: Function, argument: Id) -> TokenStream {
         let (scalar, method) = (self.scope.scalar, format_ident!("{}", function.name()));
         let value = self.value(argument);
         quote!(#scalar::#method(#value))
@@ -240,17 +245,24 @@ impl Writer<'_, '_> {
         quote!(if at == 0 { #root } else { #later })
     }
 
-    /// eᵘ; of u = ±p t the product is rounded once.
-    fn exponential(&mut self, argument: Id, derivative: Place, own: Place) -> TokenStream {
+    /// eᵘ at order zero; of u = ±p t the product is rounded once.
+    pub(super) fn exponential_at_start(&mut self, argument: Id) -> TokenStream {
         let scalar = self.scope.scalar;
-        let mut start = self.start(Function::Exp, argument);
-        if let Some((negative, p, _)) = self.scope.lowered.secular(argument) {
-            let p = self.fixed(p);
-            let sign = negative.then(|| quote!(-));
-            start = quote!(#scalar::exp_product(#sign #p, t));
+        match self.scope.lowered.secular(argument) {
+            Some((negative, p, _)) => {
+                let p = self.fixed(p);
+                let sign = negative.then(|| quote!(-));
+                quote!(#scalar::exp_product(#sign #p, t))
+            }
+            None => self.start(Function::Exp, argument),
         }
-        self.derivative(argument, derivative);
-        let later = self.integral(derivative, own);
+    }
+
+    /// eᵘ
+    fn exponential(&mut self, argument: Id, derivative: Place, own: Place) -> TokenStream {
+        let start = self.exponential_at_start(argument);
+        let u = self.derivative(argument, derivative);
+        let later = self.integral(&u, derivative, own);
         quote!(if at == 0 { #start } else { #later })
     }
 
@@ -264,9 +276,9 @@ impl Writer<'_, '_> {
     ) -> TokenStream {
         let scalar = self.scope.scalar;
         let start = self.start(function, argument);
-        self.derivative(argument, derivative);
+        let u = self.derivative(argument, derivative);
         let (w, v) = (self.array(own), self.array(partner));
-        let value = self.integral(derivative, partner);
+        let value = self.integral(&u, derivative, partner);
         let square = self.half_sum_of("square", own);
         let one = quote!(#scalar::from_f64(1.0));
         let partner = Self::call("plus", &[minus(is_negative, &square), one]);
@@ -321,8 +333,8 @@ impl Writer<'_, '_> {
         places: [Place; 2],
     ) {
         let [sine, cosine] = functions.map(|one| self.start(one, argument));
-        self.derivative(argument, derivative);
-        let [next_cosine, next_sine] = places.map(|place| self.integral(derivative, place));
+        let u = self.derivative(argument, derivative);
+        let [next_cosine, next_sine] = places.map(|place| self.integral(&u, derivative, place));
         let next_cosine = minus(is_negative, &next_cosine);
         let names = functions.map(|one| self.block.unused_name(one.name()));
         let [s, c] = &names;
@@ -336,16 +348,16 @@ impl Writer<'_, '_> {
 
     /// w = ±∫ du/v
     fn primitive(&mut self, primitive: &Primitive, start: &TokenStream) -> TokenStream {
-        let scalar = self.scope.scalar;
         let (e, v) = (self.array(primitive.slope), self.array(primitive.divisor));
         let inverse = self.inverse(primitive.inverse, &quote!(#v[0]));
-        let value = self.value(primitive.argument);
-        let derivative = Self::call("derivative", &[minus(primitive.is_negative, &value)]);
-        let slope = Self::call("slope", &[derivative, quote!(&#v), quote!(&#e), inverse]);
+        let u = minus(primitive.is_negative, &self.value(primitive.argument));
+        let later = Self::call("primitive", &[u, quote!(&#v), quote!(&#e), inverse]);
+        let value = self.block.unused_name("primitive");
+        let derivative = Self::call("derivative", &[quote!(#value)]);
         self.block.push(quote! {
-            #e[at] = if at == 0 { #scalar::from_f64(0.0) } else { #slope };
+            let #value = if at == 0 { #start } else { #later };
+            #e[at] = #derivative;
         });
-        let value = Self::call("antiderivative", &[quote!(#e[at])]);
-        quote!(if at == 0 { #start } else { #value })
+        quote!(#value)
     }
 }

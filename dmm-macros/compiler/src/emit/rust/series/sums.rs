@@ -14,16 +14,19 @@ use crate::program::series::{Place, Sum};
 impl Writer<'_, '_> {
     /// Computes the sums that the recurrences take.
     pub(super) fn sums(&mut self) {
-        let [first, second, half] = self.tables.ranges();
-        let inner = self.tables.inner.iter().map(|&of| Sum::Inner(of));
-        self.sums_of("inner_sums", first.start..second.end, first.len(), inner);
-        let halves = self.tables.half.iter().map(|&of| Sum::Half(of));
-        self.sums_of("half_sums", half.clone(), half.len(), halves);
+        let tables = self.tables;
+        let [first, second, half] = tables.ranges();
+        let inner = tables.inner.iter().map(|&of| Sum::Inner(of));
+        let range = first.start..second.end;
+        self.sums_of(0, "inner_sums", range, first.len(), inner);
+        let halves = tables.half.iter().map(|&of| Sum::Half(of));
+        self.sums_of(1, "half_sums", half.clone(), half.len(), halves);
     }
 
     /// Sums of one kind, from the tables at `range`.
     fn sums_of(
         &mut self,
+        kind: usize,
         name: &str,
         range: Range<usize>,
         lanes: usize,
@@ -38,26 +41,13 @@ impl Writer<'_, '_> {
         self.block.push(quote! {
             let #names: [#scalar; #lanes] = dmm::series::#function(k, &series[#from..#to]);
         });
-        self.sums.extend(sums.enumerate().map(|(lane, sum)| {
+        // those of packs are taken by lanes
+        let single = sums.enumerate().skip(self.tables.first_single[kind]);
+        self.sums.extend(single.map(|(lane, sum)| {
             let lane = paths::count(lane);
             (sum, quote!(#names[#lane]))
         }));
-    }
-
-    /// Keeps the coefficients of order k in the tables.
-    pub(super) fn keep_rows(&mut self) {
-        let tables = self.tables;
-        for (column, range) in tables.columns().iter().zip(tables.ranges()) {
-            if column.is_empty() {
-                continue;
-            }
-            let [from, to] = [range.start, range.end].map(paths::count);
-            let row = column.iter().map(|&place| self.newest(place));
-            self.block.push(quote! {
-                let row = [#(#row),*];
-                dmm::series::set_row(k, &mut series[#from..#to], row);
-            });
-        }
+        self.names_of_sums[kind] = Some(names);
     }
 
     /// The first and the newest coefficient of a series.
@@ -128,16 +118,16 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Coefficient k ≥ 1 of ∫ v du from d = h du/dh.
-    pub(super) fn integral(&self, derivative: Place, of: Place) -> TokenStream {
+    /// Coefficient k ≥ 1 of ∫ v du from uₖ and h du/dh.
+    pub(super) fn integral(&self, u: &TokenStream, derivative: Place, of: Place) -> TokenStream {
         match self.sums.get(&Sum::Inner([derivative, of])) {
             Some(sum) => {
-                let (d, v) = (self.newest(derivative), self.first(of));
-                Self::call("integral_from", &[d, v, sum.clone()])
+                let v = self.first(of);
+                Self::call("integral_from", &[u.clone(), v, sum.clone()])
             }
             None => {
                 let [d, v] = [derivative, of].map(|place| self.array(place));
-                Self::call("integral", &[quote!(&#d), quote!(&#v)])
+                Self::call("integral", &[u.clone(), quote!(&#d), quote!(&#v)])
             }
         }
     }

@@ -10,7 +10,7 @@ use crate::algebra::Id;
 use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
 use crate::emit::rust::paths;
-use crate::program::series::{Coefficient, Factor, Later, Place, Scaled, Sum, Tables};
+use crate::program::series::{Coefficient, Factor, LANES, Later, Place, Scaled, Sum, Tables};
 
 /// Writes the coefficient of one node after the other.
 pub(super) struct Writer<'a, 'b> {
@@ -24,6 +24,10 @@ pub(super) struct Writer<'a, 'b> {
     halves: BTreeMap<Id, Ident>,
     /// The sums that are known.
     pub(super) sums: BTreeMap<Sum, TokenStream>,
+    /// The names of all sums of both kinds.
+    pub(super) names_of_sums: [Option<Ident>; 2],
+    /// The names of vectors, by their elements.
+    pub(super) vectors: BTreeMap<[String; LANES], Ident>,
 }
 
 impl<'a, 'b> Writer<'a, 'b> {
@@ -42,6 +46,8 @@ impl<'a, 'b> Writer<'a, 'b> {
             newest: BTreeMap::new(),
             halves: BTreeMap::new(),
             sums: BTreeMap::new(),
+            names_of_sums: [None, None],
+            vectors: BTreeMap::new(),
         }
     }
 
@@ -103,7 +109,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             let array = self.array(place);
             self.block.push(quote!(#array[at] = #value;));
             value = quote!(#array[at]);
-        } else if !is_name(&value) {
+        } else if !is_place(&value) {
             let name = self.block.unused_name("c");
             self.block.push(quote!(let #name = #value;));
             value = quote!(#name);
@@ -196,24 +202,24 @@ impl<'a, 'b> Writer<'a, 'b> {
         }
     }
 
-    /// Coefficient k + 2 of a state.
-    pub(super) fn a_step_later(&mut self, later: &Later, scale: &TokenStream) -> TokenStream {
+    /// The scale of coefficient k + 2 of a state.
+    pub(super) fn scale_of_later(&mut self, later: &Later, scale: &TokenStream) -> TokenStream {
         let scalar = self.scope.scalar;
-        let mut scale = product(scale, &quote!(dmm::series::next_step::<#scalar, _>(k)));
-        if let Some(factor) = later.factor {
-            scale = self.multiplied(factor, &scale);
+        let scale = product(scale, &quote!(dmm::series::next_step::<#scalar, _>(k)));
+        match later.factor {
+            Some(factor) => self.multiplied(factor, &scale),
+            None => scale,
         }
-        self.scaled(&later.value, scale)
     }
 }
 
-/// Whether it is a name.
-fn is_name(tokens: &TokenStream) -> bool {
-    let mut trees = tokens.clone().into_iter();
-    matches!(
-        (trees.next(), trees.next()),
-        (Some(TokenTree::Ident(_)), None)
-    )
+/// Whether it is a name, or an element of what has one.
+fn is_place(tokens: &TokenStream) -> bool {
+    tokens.clone().into_iter().all(|tree| match tree {
+        TokenTree::Ident(ident) => ident != "if",
+        TokenTree::Punct(sign) => sign.as_char() == '.',
+        TokenTree::Literal(_) | TokenTree::Group(_) => true,
+    })
 }
 
 /// In parentheses if it is no single factor.

@@ -1,0 +1,326 @@
+//! Nodes whose equations are equal up to their states and constants: their coefficients are computed
+//! side by side, in the lanes of a vector. They come from loops and sums of a declaration, or from
+//! equations that are alike by themselves.
+//!
+//! Two nodes are alike if their operations are the same and their operands are alike; all states of a
+//! group are, and all that is constant in time. The lanes follow the operands' lanes, so that most
+//! vectors are operands of others as they are.
+
+use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
+
+use egg::Language;
+
+use super::Sums;
+use crate::algebra::{Equation, Id, Math, Name};
+use crate::program::Lowered;
+
+/// Lanes of a vector.
+pub const LANES: usize = 4;
+/// Fewer nodes are not worth one.
+const LEAST: usize = 3;
+
+/// Nodes that change with the time, operands before what is made of them.
+pub(super) struct Packed {
+    /// The nodes, those of a pack one after the other.
+    pub(super) nodes: Vec<Id>,
+    /// Where the packs are among them.
+    pub(super) packs: Vec<Range<usize>>,
+}
+
+impl Packed {
+    /// The nodes `moving`, children before parents, of which `depth` operations follow on each other;
+    /// `uses` are how often each is an operand or a root.
+    pub(super) fn new(
+        (lowered, sums): (&Lowered, Sums),
+        moving: &[Id],
+        depth: impl Fn(Id) -> usize,
+        uses: &HashMap<Id, usize>,
+    ) -> Self {
+        let runs = runs(lowered, moving, depth);
+        let mut packing = Packing::new(lowered, &runs, absorbed(lowered, &runs, uses));
+        for run in &runs {
+            if run
+                .first()
+                .is_some_and(|&id| has_recurrence(lowered, id, sums))
+            {
+                packing.pack_in_order(run);
+            }
+        }
+        packing.pack_operands();
+        for run in runs.iter().filter(|run| is_linear(lowered, run[0])) {
+            packing.pack_along_operands(run);
+        }
+        let variables = moving.iter().filter(|&&id| is_variable(lowered, id));
+        let mut packed = Self {
+            nodes: variables.copied().collect(),
+            packs: Vec::new(),
+        };
+        for (number, run) in runs.iter().enumerate() {
+            for pack in packing
+                .packs
+                .iter()
+                .filter(|pack| packing.runs[&pack[0]] == number)
+            {
+                let start = packed.nodes.len();
+                packed.nodes.extend(pack);
+                packed.packs.push(start..packed.nodes.len());
+            }
+            let single = run.iter().filter(|id| !packing.packed.contains(id));
+            packed.nodes.extend(single);
+        }
+        packed
+    }
+}
+
+/// The packs so far.
+struct Packing<'a> {
+    lowered: &'a Lowered,
+    /// By node, the number of its run.
+    runs: HashMap<Id, usize>,
+    packs: Vec<Vec<Id>>,
+    /// The nodes that are in a pack.
+    packed: BTreeSet<Id>,
+    /// The nodes that are not to be.
+    single: BTreeSet<Id>,
+}
+
+impl<'a> Packing<'a> {
+    fn new(lowered: &'a Lowered, runs: &[Vec<Id>], single: BTreeSet<Id>) -> Self {
+        let numbered = runs.iter().enumerate();
+        let numbered = numbered.flat_map(|(number, run)| run.iter().map(move |&id| (id, number)));
+        Self {
+            lowered,
+            runs: numbered.collect(),
+            packs: Vec::new(),
+            packed: BTreeSet::new(),
+            single,
+        }
+    }
+
+    /// Makes a pack of some nodes, if none is in one and they are alike.
+    fn add(&mut self, pack: Vec<Id>) -> bool {
+        let run = self.runs.get(&pack[0]);
+        let is_free = |id: &Id| {
+            self.runs.get(id) == run && !self.packed.contains(id) && !self.single.contains(id)
+        };
+        let different: BTreeSet<Id> = pack.iter().copied().collect();
+        let is_pack = run.is_some() && pack.iter().all(is_free) && different.len() == pack.len();
+        if is_pack {
+            self.packed.extend(&pack);
+            self.packs.push(pack);
+        }
+        is_pack
+    }
+
+    /// Packs of nodes one after the other.
+    fn pack_in_order(&mut self, run: &[Id]) {
+        let mut rest = run;
+        for size in sizes(run.len()) {
+            let (pack, others) = rest.split_at(size);
+            self.add(pack.to_vec());
+            rest = others;
+        }
+    }
+
+    /// Packs of what is linear and the operand of a pack, lane by lane.
+    fn pack_operands(&mut self) {
+        let mut number = 0;
+        while let Some(pack) = self.packs.get(number) {
+            for operand in operands(self.lowered, pack) {
+                if is_linear(self.lowered, operand[0]) {
+                    self.add(operand);
+                }
+            }
+            number += 1;
+        }
+    }
+
+    /// Packs of the nodes of a run that have a pack as an operand, lane by lane. What is linear gains
+    /// nothing where all operands have to be gathered.
+    fn pack_along_operands(&mut self, run: &[Id]) {
+        let sides = self.lowered.dag()[run[0]].children().len();
+        for side in 0..sides {
+            let mut of_operand: HashMap<Id, Vec<Id>> = HashMap::new();
+            for &id in run {
+                let operand = self.lowered.dag()[id].children()[side];
+                of_operand.entry(operand).or_default().push(id);
+            }
+            for number in 0..self.packs.len() {
+                let users = self.packs[number].iter().map(|id| of_operand.get(id));
+                let Some(users) = users.collect::<Option<Vec<&Vec<Id>>>>() else {
+                    continue;
+                };
+                let most = users.iter().map(|of| of.len()).min().unwrap_or(0);
+                for which in 0..most {
+                    self.add(users.iter().map(|of| of[which]).collect());
+                }
+            }
+        }
+    }
+}
+
+/// The operands of a pack, by side.
+fn operands(lowered: &Lowered, pack: &[Id]) -> Vec<Vec<Id>> {
+    let sides = lowered.dag()[pack[0]].children().len();
+    let operand = |id: Id, side: usize| lowered.dag()[id].children()[side];
+    (0..sides)
+        .map(|side| pack.iter().map(|&id| operand(id, side)).collect())
+        .collect()
+}
+
+/// Whether a node is linear in what changes with the time.
+fn is_linear(lowered: &Lowered, id: Id) -> bool {
+    match lowered.dag()[id] {
+        Math::Add(_) | Math::Sub(_) | Math::Neg(_) => true,
+        Math::Mul([a, b]) => lowered.is_fixed(a) || lowered.is_fixed(b),
+        _ => false,
+    }
+}
+
+/// The sizes of the packs of so many nodes: as many nodes as can be, in as few packs.
+fn sizes(nodes: usize) -> Vec<usize> {
+    let rest = nodes % LANES;
+    let threes = match rest {
+        LEAST => 1,
+        1 | 2 if nodes > LANES + 1 => LANES - rest,
+        _ => 0,
+    };
+    let fours = (nodes - LEAST * threes) / LANES;
+    [vec![LANES; fours], vec![LEAST; threes]].concat()
+}
+
+/// The nodes that are alike, in the order of their operands, operands first.
+fn runs(lowered: &Lowered, moving: &[Id], depth: impl Fn(Id) -> usize) -> Vec<Vec<Id>> {
+    let mut shapes = Shapes::default();
+    let mut runs: HashMap<usize, Vec<Id>> = HashMap::new();
+    let mut order: Vec<(usize, usize)> = Vec::new();
+    for &id in moving {
+        let shape = shapes.add(lowered, id);
+        if !is_variable(lowered, id) {
+            let run = runs.entry(shape).or_default();
+            if run.is_empty() {
+                order.push((depth(id), shape));
+            }
+            run.push(id);
+        }
+    }
+    // by depth, and as they come
+    order.sort_by_key(|&(depth, _)| depth);
+    let variables = moving.iter().filter(|&&id| is_variable(lowered, id));
+    let mut ranks: HashMap<Id, usize> = variables.copied().zip(1..).collect();
+    let sorted = order.into_iter().map(|(_, shape)| {
+        let mut run = runs.remove(&shape).unwrap_or_default();
+        run.sort_by_cached_key(|&id| {
+            let children = lowered.dag()[id].children().iter();
+            let ranks = children.map(|child| ranks.get(child).copied().unwrap_or(0));
+            ranks.collect::<Vec<usize>>()
+        });
+        for &id in &run {
+            ranks.insert(id, ranks.len() + 1);
+        }
+        run
+    });
+    sorted.collect()
+}
+
+fn is_variable(lowered: &Lowered, id: Id) -> bool {
+    matches!(lowered.dag()[id], Math::Variable(_))
+}
+
+/// The shapes of nodes: those that are alike have the same one.
+#[derive(Default)]
+struct Shapes {
+    numbers: HashMap<(Math, bool), usize>,
+    of_nodes: HashMap<Id, usize>,
+}
+
+impl Shapes {
+    /// That of a node whose children have theirs. What is constant in time has number 0.
+    fn add(&mut self, lowered: &Lowered, id: Id) -> usize {
+        let node = &lowered.dag()[id];
+        let is_square = matches!(node, Math::Mul([a, b]) if a == b);
+        let node = match node {
+            Math::Variable(name) => Math::Variable(group(name)),
+            node => node.clone().map_children(|child| {
+                let shape = self.of_nodes.get(&child);
+                Id::from(shape.copied().unwrap_or(0))
+            }),
+        };
+        let next = self.numbers.len() + 1;
+        let shape = *self.numbers.entry((node, is_square)).or_insert(next);
+        self.of_nodes.insert(id, shape);
+        shape
+    }
+}
+
+/// The group of an element, by their names: x of x₀ or x[0].
+fn group(name: &Name) -> Name {
+    let is_index = |c: char| c.is_numeric() || matches!(c, '[' | ']');
+    Name::new(name.as_str().trim_end_matches(is_index))
+}
+
+/// Whether nodes like this one have a recurrence that is computed side by side.
+fn has_recurrence(lowered: &Lowered, id: Id, sums: Sums) -> bool {
+    let is_moving = |id: Id| !lowered.is_fixed(id);
+    match lowered.dag()[id] {
+        Math::Mul([a, b]) => is_moving(a) && is_moving(b),
+        Math::Div([_, b]) => is_moving(b),
+        // by a sum of its own in straight-line code
+        Math::Pow([a, b]) => sums == Sums::Rolled && is_moving(a) && !is_moving(b),
+        Math::Call(function, _) => matches!(
+            function.properties().equation,
+            Equation::Root | Equation::Exponential | Equation::Pair { .. }
+        ),
+        _ => false,
+    }
+}
+
+/// Products with constants that enter sums of packs alone, by a fused operation there.
+fn absorbed(lowered: &Lowered, runs: &[Vec<Id>], uses: &HashMap<Id, usize>) -> BTreeSet<Id> {
+    let mut products = BTreeSet::new();
+    for run in runs.iter().filter(|run| run.len() >= LEAST) {
+        let terms: Vec<Id> = run
+            .iter()
+            .filter_map(|&id| fused_term(lowered, id))
+            .collect();
+        let is_free = |id: &Id| uses.get(id) == Some(&1);
+        if terms.len() == run.len() && terms.iter().all(is_free) {
+            products.extend(terms);
+        }
+    }
+    products
+}
+
+/// The operand of a sum that is a product with a constant and may be computed with the sum. The difference
+/// of two products stays as it is: it is zero where they are equal.
+pub fn fused_term(lowered: &Lowered, id: Id) -> Option<Id> {
+    let is_multiple = |id: &Id| match lowered.dag()[*id] {
+        Math::Mul([a, b]) => lowered.is_fixed(a) != lowered.is_fixed(b),
+        _ => false,
+    };
+    match lowered.dag()[id] {
+        Math::Add([a, b]) => [b, a].into_iter().find(is_multiple),
+        Math::Sub([a, b]) if !(is_multiple(&a) && is_multiple(&b)) => {
+            [b, a].into_iter().find(is_multiple)
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packs_hold_as_many_nodes_as_can_be() {
+        let of = |nodes: usize| sizes(nodes);
+        assert_eq!([of(2), of(3), of(4)], [vec![], vec![3], vec![4]]);
+        assert_eq!([of(5), of(6)], [vec![4], vec![3, 3]]);
+        assert_eq!([of(7), of(9)], [vec![4, 3], vec![3, 3, 3]]);
+        assert_eq!([of(10), of(11)], [vec![4, 3, 3], vec![4, 4, 3]]);
+        for nodes in 6..100 {
+            assert_eq!(of(nodes).iter().sum::<usize>(), nodes);
+        }
+    }
+}
