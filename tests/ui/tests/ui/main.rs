@@ -1,12 +1,14 @@
 //! The diagnostics of declarations that do not compile.
 //!
 //! The expected messages are the files `fail/*.stderr`; after an intended change,
-//! `TRYBUILD=overwrite cargo test -p dmm-ui-tests` writes them anew, to be read before
+//! `UPDATE_MESSAGES=1 cargo test -p dmm-ui-tests` writes them anew, to be read before
 //! they are committed.
+
+mod messages;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use dmm_compiler::diagnostics::catalogue;
 
@@ -18,21 +20,17 @@ const UNREACHABLE: &[(u16, &str)] = &[(
 
 #[test]
 fn wrong_declarations_are_reported() {
-    let cases = trybuild::TestCases::new();
-    cases.compile_fail("fail/*.rs");
+    messages::check("fail");
     // messages of rustc about the library's traits, which have no code of ours
-    cases.compile_fail("runtime/*.rs");
+    messages::check("runtime");
 }
 
 /// The files of expected messages, with their texts.
 fn expected_messages() -> Vec<(PathBuf, String)> {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("fail");
-    fs::read_dir(directory)
-        .expect("the directory of wrong declarations")
-        .map(|entry| entry.expect("a file").path())
-        .filter(|path| path.extension().is_some_and(|it| it == "stderr"))
+    let files = messages::files("fail", "stderr").into_iter();
+    files
         .map(|path| {
-            let text = fs::read_to_string(&path).expect("expected messages");
+            let text = fs::read_to_string(messages::root().join(&path)).expect("expected messages");
             (path, text)
         })
         .collect()
