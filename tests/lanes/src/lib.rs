@@ -1,0 +1,1 @@
+//! Trajectories in lanes are those one at a time; see `tests/`.
