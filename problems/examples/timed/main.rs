@@ -18,7 +18,8 @@
 //! `cargo run --release -p dmm-problems --features compiled --example timed -- chains` prints the time of a
 //! step of chains by their number of states.
 
-#[cfg(feature = "compiled")]
+// the tests do without: its systems take most of the time to compile
+#[cfg(all(feature = "compiled", not(test)))]
 mod large;
 
 use std::error::Error;
@@ -37,7 +38,7 @@ use dmm_problems::registry;
 use serde_json::{Value, json};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    #[cfg(feature = "compiled")]
+    #[cfg(all(feature = "compiled", not(test)))]
     if std::env::args().nth(1).as_deref() == Some("chains") {
         return large::print_chains();
     }
@@ -53,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
-    #[cfg(feature = "compiled")]
+    #[cfg(all(feature = "compiled", not(test)))]
     if let [_, name, ..] = words
         && let Some(large) = large::Large::find(name)
     {
@@ -78,7 +79,7 @@ fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
 }
 
 /// The answer to what is asked of a larger system.
-#[cfg(feature = "compiled")]
+#[cfg(all(feature = "compiled", not(test)))]
 fn of_large(large: &large::Large, words: &[&str]) -> Result<Value, Box<dyn Error>> {
     match words {
         ["describe", _] => describe(&large.problem()?),
