@@ -6,6 +6,10 @@
 //! the state: the smallest δx with Λ δx = −r, each component measured by its [`Weights`], so that
 //! neither its unit nor its zeros matter. With W = diag(wᵢ²), δx = −WΛᵀ(ΛWΛᵀ)⁻¹ r.
 //!
+//! One displacement leaves its square, which the next step's displacement takes off, as the level is that
+//! of the entry. A point that is shown or met, and one that was far from the level, is moved until
+//! what is left is a rounding error.
+//!
 //! Where ψ has little slope the rounding error of ψ, and not r, would be what moves the state.
 //! There r is evaluated in pairs of doubles. Where ψ has no slope to speak of even r must not be
 //! amplified: there, for one quantity δx = −WΛᵀ r/(ΛWΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of

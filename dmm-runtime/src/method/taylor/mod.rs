@@ -25,7 +25,8 @@ use crate::series::Unroll;
 /// A step is the part of the radius of convergence, estimated by the root test on the last two
 /// coefficients, over which the first neglected term is below the tolerance relative to the
 /// state (Jorba & Zou, Experimental Mathematics 14, 2005, sections 3.1–3.2). After each step,
-/// and at each transition, the state is put back on the level of the conserved quantities.
+/// and at each transition, the state is put back on the level of the conserved quantities: up to the
+/// square of its displacement where nobody is shown the point, to rounding elsewhere.
 /// Every zero of a switching function in a step is found, however slowly its own series
 /// converges: see [the front page](crate#every-crossing).
 ///

@@ -40,10 +40,7 @@ impl Packed {
         let runs = runs(lowered, moving, depth);
         let mut packing = Packing::new(lowered, &runs, absorbed(lowered, &runs, uses));
         for run in &runs {
-            if run
-                .first()
-                .is_some_and(|&id| has_recurrence(lowered, id, sums))
-            {
+            if has_recurrence(lowered, run[0], sums) {
                 packing.pack_in_order(run);
             }
         }
@@ -52,24 +49,7 @@ impl Packed {
             packing.pack_along_operands(run);
         }
         let variables = moving.iter().filter(|&&id| is_variable(lowered, id));
-        let mut packed = Self {
-            nodes: variables.copied().collect(),
-            packs: Vec::new(),
-        };
-        for (number, run) in runs.iter().enumerate() {
-            for pack in packing
-                .packs
-                .iter()
-                .filter(|pack| packing.runs[&pack[0]] == number)
-            {
-                let start = packed.nodes.len();
-                packed.nodes.extend(pack);
-                packed.packs.push(start..packed.nodes.len());
-            }
-            let single = run.iter().filter(|id| !packing.packed.contains(id));
-            packed.nodes.extend(single);
-        }
-        packed
+        packing.in_order(variables.copied().collect(), &runs)
     }
 }
 
@@ -98,8 +78,23 @@ impl<'a> Packing<'a> {
         }
     }
 
-    /// Makes a pack of some nodes, if none is in one and they are alike.
-    fn add(&mut self, pack: Vec<Id>) -> bool {
+    /// The `first` nodes and those of all runs, the packs of a run before its other nodes.
+    fn in_order(&self, first: Vec<Id>, runs: &[Vec<Id>]) -> Packed {
+        let mut nodes = first;
+        let mut packs = Vec::new();
+        for (number, run) in runs.iter().enumerate() {
+            let of_run = |pack: &&Vec<Id>| self.runs.get(&pack[0]) == Some(&number);
+            for pack in self.packs.iter().filter(of_run) {
+                packs.push(nodes.len()..nodes.len() + pack.len());
+                nodes.extend(pack);
+            }
+            nodes.extend(run.iter().filter(|id| !self.packed.contains(id)));
+        }
+        Packed { nodes, packs }
+    }
+
+    /// Makes a pack of some nodes, if they are alike and none is in one.
+    fn add(&mut self, pack: Vec<Id>) {
         let run = self.runs.get(&pack[0]);
         let is_free = |id: &Id| {
             self.runs.get(id) == run && !self.packed.contains(id) && !self.single.contains(id)
@@ -110,7 +105,6 @@ impl<'a> Packing<'a> {
             self.packed.extend(&pack);
             self.packs.push(pack);
         }
-        is_pack
     }
 
     /// Packs of nodes one after the other.
@@ -190,7 +184,7 @@ fn sizes(nodes: usize) -> Vec<usize> {
     [vec![LANES; fours], vec![LEAST; threes]].concat()
 }
 
-/// The nodes that are alike, in the order of their operands, operands first.
+/// The nodes that are alike, at least one in each run, in the order of their operands; operands first.
 fn runs(lowered: &Lowered, moving: &[Id], depth: impl Fn(Id) -> usize) -> Vec<Vec<Id>> {
     let mut shapes = Shapes::default();
     let mut runs: HashMap<usize, Vec<Id>> = HashMap::new();

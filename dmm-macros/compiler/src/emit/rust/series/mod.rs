@@ -4,6 +4,8 @@
 mod packs;
 mod recurrences;
 mod sums;
+mod together;
+mod vectors;
 mod writer;
 
 use proc_macro2::TokenStream;

@@ -3,16 +3,14 @@
 
 use std::array;
 
-use proc_macro2::{Ident, TokenStream};
+use egg::Language;
+use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::vectors::Lanes;
 use super::writer::{Writer, minus};
 use crate::algebra::{Id, Math};
-use crate::emit::rust::paths;
-use crate::program::series::{Coefficient, Factor, LANES, Place, Recurrence, Scaled, fused_term};
-
-/// What each lane has.
-type Lanes<T> = [T; LANES];
+use crate::program::series::{Coefficient, Place, Recurrence, fused_term};
 
 /// A pack: its coefficients, and the first lanes of its sums in the tables.
 struct Pack<'c> {
@@ -65,92 +63,6 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Gives a vector a name; its elements, as many as there are.
-    fn elements(&mut self, value: &TokenStream, count: usize) -> Vec<TokenStream> {
-        let text = value.to_string();
-        let known = self.vectors.values().find(|name| **name == text).cloned();
-        let name = known.unwrap_or_else(|| {
-            let name = self.block.unused_name("four");
-            self.block.push(quote!(let #name = #value;));
-            name
-        });
-        let elements: Vec<TokenStream> = (0..count)
-            .map(|lane| {
-                let lane = paths::count(lane);
-                quote!(#name.0[#lane])
-            })
-            .collect();
-        let lanes: Lanes<String> = array::from_fn(|lane| elements[lane % count].to_string());
-        self.vectors.insert(lanes, name);
-        elements
-    }
-
-    /// The vector of some values: one that has a name, if it has these.
-    fn four(&self, values: Lanes<TokenStream>) -> TokenStream {
-        let texts = values.each_ref().map(TokenStream::to_string);
-        let [first, rest @ ..] = &texts;
-        match self.vectors.get(&texts) {
-            Some(name) => quote!(#name),
-            None if rest.iter().all(|other| other == first) => {
-                let [value, ..] = values;
-                quote!(dmm::series::Four::all(#value))
-            }
-            None => quote!(dmm::series::Four([#(#values),*])),
-        }
-    }
-
-    fn values(&mut self, ids: Lanes<Id>) -> TokenStream {
-        let values = ids.map(|id| self.value(id));
-        self.four(values)
-    }
-
-    fn fixed_values(&mut self, ids: Lanes<Id>) -> TokenStream {
-        let values = ids.map(|id| self.fixed(id));
-        self.four(values)
-    }
-
-    /// The coefficients of order k of series.
-    pub(super) fn newest_of(&self, places: Lanes<Place>) -> TokenStream {
-        self.four(places.map(|place| self.newest(place)))
-    }
-
-    /// A sum of each, from a lane on.
-    fn sums_from(&self, names: Option<&Ident>, lane: usize) -> TokenStream {
-        let lane = paths::count(lane);
-        quote!(dmm::series::Four::of_lanes(&#names, #lane))
-    }
-
-    fn inner_sums_from(&self, lane: usize) -> TokenStream {
-        self.sums_from(self.names_of_sums[0].as_ref(), lane)
-    }
-
-    fn half_sums_from(&self, lane: usize) -> TokenStream {
-        self.sums_from(self.names_of_sums[1].as_ref(), lane)
-    }
-
-    /// The coefficients of an order in a table, of this number.
-    fn row_from(&self, table: usize, lane: usize, order: &TokenStream) -> TokenStream {
-        let range = &self.tables.ranges()[table];
-        let [from, to, lanes, lane] = [range.start, range.end, range.len(), lane].map(paths::count);
-        quote!(dmm::series::four::<_, _, #lanes>(&series[#from..#to], #order, #lane))
-    }
-
-    /// Keeps the coefficients of order k in the tables.
-    pub(super) fn keep_rows(&mut self) {
-        let tables = self.tables;
-        for (column, range) in tables.columns().iter().zip(tables.ranges()) {
-            let [from, to] = [range.start, range.end].map(paths::count);
-            for (number, places) in column.chunks(LANES).enumerate() {
-                let places = array::from_fn(|lane| places[lane % places.len()]);
-                let (row, lane) = (self.newest_of(places), paths::count(LANES * number));
-                self.block.push(quote! {
-                    let row = #row;
-                    dmm::series::set_four(k, &mut series[#from..#to], #lane, row);
-                });
-            }
-        }
-    }
-
     /// uₖ, and h du/dh of the arguments u.
     fn derivatives(
         &mut self,
@@ -164,7 +76,7 @@ impl Writer<'_, '_> {
     }
 
     fn derivatives_of(&mut self, u: &TokenStream, places: Lanes<Place>, count: usize) {
-        let derivatives = Self::call("derivative", &[u.clone()]);
+        let derivatives = Self::call("derivative", std::slice::from_ref(u));
         let elements = self.elements(&derivatives, count);
         for (place, element) in places.into_iter().zip(&elements) {
             self.set(place, element);
@@ -338,7 +250,7 @@ impl Writer<'_, '_> {
     /// What is linear in its operands.
     fn linear(&mut self, nodes: Lanes<Id>) -> Option<TokenStream> {
         let dag = self.scope.lowered.dag();
-        let operands = |side: usize| nodes.map(|id| egg::Language::children(&dag[id])[side]);
+        let operands = |side: usize| nodes.map(|id| dag[id].children()[side]);
         let is_fixed = |id: Id| self.scope.lowered.is_fixed(id);
         Some(match dag[nodes[0]] {
             Math::Neg(_) => minus(true, &self.values(operands(0))),
@@ -389,85 +301,5 @@ impl Writer<'_, '_> {
         let (c, v) = (minus(minus_product, &c), self.values(others));
         let v = minus(minus_other, &v);
         Some(quote!(dmm::series::Arithmetic::times_plus(#c, #u, #v)))
-    }
-
-    /// Coefficients times their scales; those of a whole pack, where they follow on each other, side by side.
-    pub(super) fn scaled_together(
-        &mut self,
-        scaled: &[(&Scaled, TokenStream)],
-    ) -> Vec<TokenStream> {
-        let mut values = Vec::new();
-        while let [(first, scale), ..] = &scaled[values.len()..] {
-            let rest = &scaled[values.len()..];
-            let counts = [LANES, LANES - 1].into_iter();
-            let mut packs = counts.filter_map(|count| rest.get(..count));
-            match packs.find_map(|pack| self.scaled_pack(pack)) {
-                Some(pack) => values.extend(pack),
-                None => values.push(self.scaled(first, scale.clone())),
-            }
-        }
-        values
-    }
-
-    /// The same of a pack, if it is one.
-    fn scaled_pack(&mut self, scaled: &[(&Scaled, TokenStream)]) -> Option<Vec<TokenStream>> {
-        let (_, scale) = scaled.first()?;
-        let text = scale.to_string();
-        if scaled.iter().any(|(_, other)| other.to_string() != text) {
-            return None;
-        }
-        let lanes = array::from_fn(|lane| scaled[lane % scaled.len()].0);
-        let scale = quote!(dmm::series::Four::all(#scale));
-        let (u, scale) = self.of_vector(lanes, scale)?;
-        let value = Self::call("scaled", &[u, scale]);
-        Some(self.elements(&value, scaled.len()))
-    }
-
-    /// The vector that some coefficients are multiples of, and the scale with their factors.
-    fn of_vector(
-        &mut self,
-        scaled: Lanes<&Scaled>,
-        scale: TokenStream,
-    ) -> Option<(TokenStream, TokenStream)> {
-        let each = |of: &dyn Fn(&Scaled) -> Option<Id>| -> Option<Lanes<Id>> {
-            let ids: Option<Vec<Id>> = scaled.iter().map(|one| of(one)).collect();
-            ids?.try_into().ok()
-        };
-        let nodes = each(&|one| match one {
-            Scaled::Node(id) => Some(*id),
-            _ => None,
-        });
-        if let Some(nodes) = nodes {
-            if !nodes.iter().all(|&id| self.block.has_value(id)) {
-                return None;
-            }
-            let values = nodes.map(|id| self.block.value(id).to_string());
-            let name = self.vectors.get(&values)?;
-            return Some((quote!(#name), scale));
-        }
-        let mut inner = Vec::new();
-        for one in scaled {
-            match one {
-                Scaled::Multiple(_, of) => inner.push(&**of),
-                _ => return None,
-            }
-        }
-        let inner = inner.try_into().ok()?;
-        let factors = each(&|one| match one {
-            Scaled::Multiple(Factor::Node(c), _) => Some(*c),
-            _ => None,
-        });
-        let all_minus = scaled
-            .iter()
-            .all(|one| matches!(one, Scaled::Multiple(Factor::Minus, _)));
-        let scale = match factors {
-            Some(factors) => {
-                let c = self.fixed_values(factors);
-                quote!(#c * #scale)
-            }
-            None if all_minus => minus(true, &scale),
-            None => return None,
-        };
-        self.of_vector(inner, scale)
     }
 }

@@ -79,7 +79,7 @@ impl Writer<'_, '_> {
         let exponent = self.fixed(exponent);
         let later = match derivatives {
             Some([du, dw]) => {
-                let d = Self::call("derivative", &[u.clone()]);
+                let d = Self::call("derivative", std::slice::from_ref(&u));
                 self.set(du, &d);
                 let [first, second] = [Sum::Inner([own, du]), Sum::Inner([dw, base])]
                     .map(|sum| self.sums.get(&sum).cloned().unwrap_or_default());
@@ -164,7 +164,7 @@ impl Writer<'_, '_> {
     /// uₖ, and h du/dh
     fn derivative(&mut self, argument: Id, place: Place) -> TokenStream {
         let u = self.value(argument);
-        let value = Self::call("derivative", &[u.clone()]);
+        let value = Self::call("derivative", std::slice::from_ref(&u));
         self.set(place, &value);
         u
     }
