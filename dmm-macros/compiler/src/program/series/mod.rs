@@ -129,7 +129,7 @@ impl Series {
     /// The recurrences of the solution of ẋ = f(t, x).
     pub(super) fn of_solution(functions: &Functions, states: &[Name], field: &[Id]) -> Self {
         let parts = Parts::new(functions, states, field, states.len());
-        let scaling = Scaling::new(&parts.choice, &parts.operations, field);
+        let scaling = Scaling::new(&parts.choice, parts.uses(), field);
         let results = field.iter().map(|&root| SeriesResult::Solution {
             value: scaling.scaled(root),
             later: scaling.a_step_later(root),

@@ -3,8 +3,6 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use egg::Language;
-
 use super::choice::Choice;
 use super::recurrence::{Place, Shifted, Sum};
 use crate::algebra::{Id, Math};
@@ -82,15 +80,8 @@ pub(super) struct Scaling<'a> {
 }
 
 impl<'a> Scaling<'a> {
-    /// `operations` are those of `roots`.
-    pub(super) fn new(choice: &'a Choice<'a>, operations: &[Id], roots: &'a [Id]) -> Self {
-        let mut uses: HashMap<Id, usize> = HashMap::new();
-        for &id in operations {
-            choice.lowered.dag()[id].for_each(|child| *uses.entry(child).or_default() += 1);
-        }
-        for &root in roots {
-            *uses.entry(root).or_default() += 1;
-        }
+    /// `uses` are how often a node is an operand or one of the `roots`.
+    pub(super) fn new(choice: &'a Choice<'a>, uses: HashMap<Id, usize>, roots: &'a [Id]) -> Self {
         let mut scaling = Self {
             choice,
             roots,
