@@ -407,6 +407,7 @@
 /// for these as well.
 ///
 #[doc = include_str!("../DIAGNOSTICS.md")]
+#[cfg(feature = "macros")]
 #[macro_export]
 macro_rules! pws {
     // The path of this crate goes with the declaration, so that emitted code finds it under

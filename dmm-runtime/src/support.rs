@@ -6,4 +6,5 @@ pub use crate::contract::{
     RegionMetadata, Side, SlideEnd, Solvability, System, sides,
 };
 pub use crate::series;
+#[cfg(feature = "macros")]
 pub use dmm_macros::pws;

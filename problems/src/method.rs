@@ -1,7 +1,7 @@
 //! The schemes by name: a row of `methods!` is all that a scheme needs to be known to the
 //! program, its studies and its measurements.
 
-use dmm_runtime::dynamic::{InitialValue, MethodChoice, MethodVisitor, OutputTimes};
+use dmm_runtime::dynamic::{AnyMap, InitialValue, MethodChoice, MethodVisitor, OutputTimes};
 use dmm_runtime::{
     Adaptive, Best, Composed, EmbeddedRungeKutta, ErrorEstimate, NewtonLocator, RungeKutta,
     Symmetric, Taylor, Uniform,
@@ -135,9 +135,9 @@ macro_rules! methods {
             fn visit<V: MethodVisitor>(&self, visitor: V) -> V::Output {
                 match self.method {
                     $(MethodName::$variant => visitor.visit(apply(self, $scheme)),)+
-                    $(MethodName::$other => visitor.visit(runge_kutta(self, $other_scheme)),)+
+                    $(MethodName::$other => visitor.visit(uniform(self, $other_scheme, Perturbed::NOT)),)+
                     $(MethodName::$pair => visitor.visit(embedded(self, $pair_scheme)),)+
-                    MethodName::Perturbed(late) => visitor.visit(symmetric(self, late)),
+                    MethodName::Perturbed(late) => visitor.visit(uniform(self, Symmetric, late)),
                 }
             }
 
@@ -149,7 +149,7 @@ macro_rules! methods {
                     ..
                 } = *self;
                 Some(match self.method {
-                    MethodName::Symmetric => visitor.visit(symmetric(self, Perturbed::NOT)),
+                    MethodName::Symmetric => visitor.visit(unobserved(self)),
                     MethodName::Taylor => visitor
                         .visit(Taylor::tolerance(tolerance).level_correction(level_correction)),
                     MethodName::Best => visitor
@@ -164,17 +164,17 @@ macro_rules! methods {
 methods! {
     conserving {
         /// order 2, uniform steps
-        Symmetric, "symmetric", order(2), |run| symmetric(run, Perturbed::NOT);
+        Symmetric, "symmetric", order(2), |run| uniform(run, Symmetric, Perturbed::NOT);
         /// its composition of order 4, uniform steps
-        Composed4, "composed-4", order(4), |run| Composed::<4>::step_size(run.step_size).level_correction(run.level_correction);
+        Composed4, "composed-4", order(4), |run| uniform(run, Composed::<4>::SUB_STEPS, Perturbed::NOT);
         /// its composition of order 6, uniform steps
-        Composed6, "composed-6", order(6), |run| Composed::<6>::step_size(run.step_size).level_correction(run.level_correction);
+        Composed6, "composed-6", order(6), |run| uniform(run, Composed::<6>::SUB_STEPS, Perturbed::NOT);
         /// its composition of order 8, uniform steps
-        Composed8, "composed-8", order(8), |run| Composed::<8>::step_size(run.step_size).level_correction(run.level_correction);
+        Composed8, "composed-8", order(8), |run| uniform(run, Composed::<8>::SUB_STEPS, Perturbed::NOT);
         /// order 2, steps by a tolerance
-        SymmetricAdaptive, "symmetric", TOLERANCE, |run| Symmetric::tolerance(run.tolerance).level_correction(run.level_correction);
+        SymmetricAdaptive, "symmetric", TOLERANCE, |run| adaptive(run, Symmetric);
         /// composition of order 8, steps by a tolerance
-        Composed8Adaptive, "composed-8", TOLERANCE, |run| Composed::<8>::tolerance(run.tolerance).level_correction(run.level_correction);
+        Composed8Adaptive, "composed-8", TOLERANCE, |run| adaptive(run, Composed::<8>::SUB_STEPS);
         /// Taylor's method of high order, steps by a tolerance
         Taylor, "taylor", TOLERANCE, |run| Taylor::tolerance(run.tolerance).level_correction(run.level_correction);
         /// the exact flow where the field is affine, elsewhere Taylor's method
@@ -231,16 +231,27 @@ fn apply<Sch>(run: &Run, scheme: impl Fn(&Run) -> Sch) -> Sch {
     scheme(run)
 }
 
-/// The conservative scheme of order 2 of a run: with a locator of one type it is compiled once.
-fn symmetric(run: &Run, locator: Perturbed) -> Uniform<Symmetric, Perturbed> {
-    Symmetric::step_size(run.step_size)
+/// Uniform steps of a run by a one-step map: one type for all of them, compiled once.
+fn uniform(run: &Run, map: impl Into<AnyMap>, locator: Perturbed) -> Uniform<AnyMap, Perturbed> {
+    Uniform::new(map.into(), run.step_size)
         .level_correction(run.level_correction)
         .locator(locator)
 }
 
-/// A Runge–Kutta method of a run: one type for all of them, compiled once.
-fn runge_kutta(run: &Run, method: RungeKutta) -> Uniform<RungeKutta> {
-    (method.step_size(run.step_size)).level_correction(run.level_correction)
+/// The steps of [`Symmetric`] of a run that is not observed: of generated code by the type of the map.
+#[cfg(feature = "compiled")]
+fn unobserved(run: &Run) -> Uniform<Symmetric> {
+    Symmetric::step_size(run.step_size).level_correction(run.level_correction)
+}
+
+#[cfg(not(feature = "compiled"))]
+fn unobserved(run: &Run) -> Uniform<AnyMap, Perturbed> {
+    uniform(run, Symmetric, Perturbed::NOT)
+}
+
+/// Steps of a run by its tolerance, as well.
+fn adaptive(run: &Run, map: impl Into<AnyMap>) -> Adaptive<AnyMap> {
+    Adaptive::new(map.into(), run.tolerance).level_correction(run.level_correction)
 }
 
 /// A Runge–Kutta method with an error estimate: one type for all of them, compiled once.

@@ -1,8 +1,8 @@
 //! All problems, and finding one by name.
 
+use dmm_runtime::Model;
 #[cfg(feature = "compiled")]
 use dmm_runtime::dynamic::Erased;
-use dmm_runtime::{Model, System};
 
 use crate::problem::{AnySystem, Description, Problem};
 use crate::systems::*;
@@ -22,9 +22,10 @@ fn tape(declaration: &str) -> Result<Box<AnySystem>, String> {
 }
 
 /// What is done with every system, by its type.
+#[cfg(feature = "types")]
 pub trait SystemVisitor {
     /// Does it.
-    fn visit<Sys: System<N> + Default, const N: usize>(
+    fn visit<Sys: dmm_runtime::System<N> + Default, const N: usize>(
         &mut self,
         description: &'static Description,
     );
@@ -36,14 +37,15 @@ macro_rules! entries {
         const ENTRIES: &[Entry] = &[$(Entry {
             description: &$module::DESCRIPTION,
             #[cfg(feature = "compiled")]
-            system: || Erased::<$system, $states>::boxed($system::default()),
+            system: || Erased::<$module::$system, $states>::boxed(Default::default()),
             #[cfg(not(feature = "compiled"))]
-            system: || declared(&$system::default()),
+            system: || declared($module::DECLARATION),
         }),*];
 
         /// Hands every system to `visitor`.
+        #[cfg(feature = "types")]
         pub fn visit_systems(visitor: &mut impl SystemVisitor) {
-            $(visitor.visit::<$system, $states>(&$module::DESCRIPTION);)*
+            $(visitor.visit::<$module::$system, $states>(&$module::DESCRIPTION);)*
         }
     };
 }
@@ -78,18 +80,14 @@ impl Entry {
     }
 }
 
-/// The problem of a system, which is compiled at run time from its declaration.
-pub(crate) fn of<Sys: System<N>, const N: usize>(
-    description: Description,
-    system: &Sys,
-) -> Problem {
-    Problem::new(description, declared(system))
+/// The problem of a system that is declared in this package.
+pub(crate) fn of(description: Description, declaration: &str) -> Problem {
+    Problem::new(description, declared(declaration))
 }
 
-/// A system compiled at run time from its declaration.
-fn declared<Sys: System<N>, const N: usize>(system: &Sys) -> Box<AnySystem> {
-    tape(system.declaration())
-        .unwrap_or_else(|message| unreachable!("`pws!` has compiled the same: {message}"))
+/// The system of a declaration in this package, compiled at run time.
+fn declared(declaration: &str) -> Box<AnySystem> {
+    tape(declaration).unwrap_or_else(|message| unreachable!("a test compiles it: {message}"))
 }
 
 /// Every problem, the piecewise-smooth ones first.

@@ -67,6 +67,8 @@ pub struct Reversed<Sys>(
 impl<Sys: System<N>, const N: usize> System<N> for Reversed<Sys> {
     type Region = Sys::Region;
 
+    const IS_INTERPRETED: bool = Sys::IS_INTERPRETED;
+
     fn metadata(&self) -> &'static Metadata {
         self.0.metadata()
     }

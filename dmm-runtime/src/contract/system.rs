@@ -14,6 +14,10 @@ pub trait System<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// [`Mode`](crate::Mode), a region with what is constant between events.
     type Region: Copy + PartialEq + Debug + Send + Sync + 'static;
 
+    /// Whether formulas are evaluated operation by operation. Beside that it costs nothing to ask whether
+    /// anybody is told of a point, and silent runs are not compiled apart from observed ones.
+    const IS_INTERPRETED: bool = false;
+
     /// Names and signs: what is known of the system besides its functions.
     fn metadata(&self) -> &'static Metadata;
 

@@ -17,7 +17,7 @@ use super::start::Start;
 use crate::arithmetic::{State, Time};
 use crate::contract::{Side, System, Vector};
 use crate::error::Error;
-use crate::method::{Cursor, Ended, Failure, Method, Observed, Silent, Statistics};
+use crate::method::{Cursor, Ended, Failure, Method, Observed, Silent, Sink, Statistics};
 use crate::output::{End, EndedBy, Observer, Point, Transition, TransitionKind};
 
 /// An integration under way.
@@ -117,25 +117,17 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
         let Self {
             cursor, statistics, ..
         } = self;
+        let way = (method, cursor, memory, until);
         let ended = if const { Obs::LISTENS } {
             let mut listener = InMode { region, observer };
-            let segment = Segment {
-                method,
-                cursor,
-                until,
-                memory,
-                sink: &mut Observed::new(&mut listener, statistics),
-            };
-            system.visit(region, segment)
+            let mut sink = Observed::new(&mut listener, statistics);
+            segment_in(system, region, way, &mut sink)
+        } else if const { Sys::IS_INTERPRETED } {
+            let mut silent = Silent { statistics };
+            let mut sink: Observed<'_, N> = silent.erased();
+            segment_in(system, region, way, &mut sink)
         } else {
-            let segment = Segment {
-                method,
-                cursor,
-                until,
-                memory,
-                sink: &mut Silent { statistics },
-            };
-            system.visit(region, segment)
+            segment_in(system, region, way, &mut Silent { statistics })
         };
         match ended {
             Ok(Ended::AtGuard { guard, rate }) => {
@@ -216,4 +208,22 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
         }
         error
     }
+}
+
+/// A segment in a mode.
+#[inline(always)]
+fn segment_in<Sys: System<N>, Met: Method, S: Sink<N>, const N: usize>(
+    system: &Sys,
+    region: Sys::Region,
+    (method, cursor, memory, until): (&Met, &mut Cursor<N>, &mut Met::Memory<N>, f64),
+    sink: &mut S,
+) -> Result<Ended, Failure> {
+    let segment = Segment {
+        method,
+        cursor,
+        until,
+        memory,
+        sink,
+    };
+    system.visit(region, segment)
 }

@@ -51,6 +51,7 @@
 //! ```
 
 mod erased;
+mod map;
 mod method;
 mod run;
 
@@ -60,6 +61,7 @@ use std::ops::ControlFlow;
 use crate::contract::Metadata;
 use crate::error::Error;
 pub use erased::Erased;
+pub use map::AnyMap;
 pub use method::{MethodChoice, MethodVisitor};
 pub use run::{
     AnyMode, AnyObserver, Arrival, Crossed, Finish, InitialValue, MemberOutcome, OutputTimes,

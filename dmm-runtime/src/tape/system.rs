@@ -190,6 +190,8 @@ pub(crate) struct TapeRegion(usize);
 impl<const N: usize, const M: usize> System<N> for Tape<N, M> {
     type Region = TapeMode;
 
+    const IS_INTERPRETED: bool = true;
+
     fn metadata(&self) -> &'static Metadata {
         self.code.metadata
     }

@@ -1,6 +1,6 @@
 //! Generated code beside hand-written kernels of the same schemes.
 //!
-//! `cargo bench -p dmm-problems --bench kernels` runs them in turn on the same problem and
+//! `cargo bench -p dmm-problems --features types --bench kernels` runs them in turn on the same problem and
 //! prints the ratio generated / hand-written pair by pair (minimum, median, maximum), with
 //! nanoseconds and Newton iterations a step. A run is T = 1000 with τ = 10⁻³: a million steps
 //! and 404 (harmonic) or 1056 (elliptic) transitions.

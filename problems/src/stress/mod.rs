@@ -70,7 +70,7 @@ pub const STUDIES: [Study; 7] = [
     },
     Study {
         name: "failures",
-        title: "injected failures of solvers, locators and formulas",
+        title: "failures of formulas",
         study: failures::study,
     },
 ];

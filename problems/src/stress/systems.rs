@@ -1,115 +1,113 @@
 //! Systems that are made for stress alone.
 
-use dmm_runtime::pws;
-
 use crate::problem::{Description, Problem};
 use crate::registry;
 
-pws! {
-    /// A particle on a circle in phase space that touches a wall, which changes nothing.
-    pub system Circle {
-        state q, p;
-        param c = 1.0;
-        interface wall = q - c;
-        region before where wall < 0 {
-            der(q) = p;
-            der(p) = -q;
-            conserved energy = (p^2 + q^2) / 2;
-        }
-        region beyond where wall > 0 {
-            der(q) = p;
-            der(p) = -q;
-            conserved energy = (p^2 + q^2) / 2;
-        }
+/// A particle on a circle in phase space that touches a wall, which changes nothing.
+const CIRCLE: &str = "
+pub system Circle {
+    state q, p;
+    param c = 1.0;
+    interface wall = q - c;
+    region before where wall < 0 {
+        der(q) = p;
+        der(p) = -q;
+        conserved energy = (p^2 + q^2) / 2;
+    }
+    region beyond where wall > 0 {
+        der(q) = p;
+        der(p) = -q;
+        conserved energy = (p^2 + q^2) / 2;
     }
 }
+";
 
-pws! {
-    /// The same with the force of a quartic potential.
-    pub system Quartic {
-        state q, p;
-        param c = 1.0;
-        interface wall = q - c;
-        region before where wall < 0 {
-            der(q) = p;
-            der(p) = -q^3;
-            conserved energy = p^2 / 2 + q^4 / 4;
-        }
-        region beyond where wall > 0 {
-            der(q) = p;
-            der(p) = -q^3;
-            conserved energy = p^2 / 2 + q^4 / 4;
-        }
+/// The same with the force of a quartic potential.
+const QUARTIC: &str = "
+pub system Quartic {
+    state q, p;
+    param c = 1.0;
+    interface wall = q - c;
+    region before where wall < 0 {
+        der(q) = p;
+        der(p) = -q^3;
+        conserved energy = p^2 / 2 + q^4 / 4;
+    }
+    region beyond where wall > 0 {
+        der(q) = p;
+        der(p) = -q^3;
+        conserved energy = p^2 / 2 + q^4 / 4;
     }
 }
+";
 
-pws! {
-    /// A star that meets the axis of its galaxy, on whose two sides it is bound more and less:
-    /// energy is the same on both, and orbits are chaotic.
-    pub system Warped {
-        state x, y;
-        state u, v;
-        param above = 1.3, below = 0.9;
-        interface axis = x;
-        region right where axis > 0 {
-            hamiltonian energy =
-                (u^2 + v^2) / 2 + (above * x^2 + y^2) / 2 + x^2 * y - y^3 / 3 in (x, u), (y, v);
-        }
-        region left where axis < 0 {
-            hamiltonian energy =
-                (u^2 + v^2) / 2 + (below * x^2 + y^2) / 2 + x^2 * y - y^3 / 3 in (x, u), (y, v);
-        }
+/// A star that meets the axis of its galaxy, on whose two sides it is bound more and less:
+/// energy is the same on both, and orbits are chaotic.
+const WARPED: &str = "
+pub system Warped {
+    state x, y;
+    state u, v;
+    param above = 1.3, below = 0.9;
+    interface axis = x;
+    region right where axis > 0 {
+        hamiltonian energy =
+            (u^2 + v^2) / 2 + (above * x^2 + y^2) / 2 + x^2 * y - y^3 / 3 in (x, u), (y, v);
+    }
+    region left where axis < 0 {
+        hamiltonian energy =
+            (u^2 + v^2) / 2 + (below * x^2 + y^2) / 2 + x^2 * y - y^3 / 3 in (x, u), (y, v);
     }
 }
+";
 
-pws! {
-    /// ẋ = x², which is infinite at t = 1/x(0).
-    pub system Blowup {
-        state x;
-        der(x) = x^2;
-    }
+/// ẋ = x², which is infinite at t = 1/x(0).
+const BLOWUP: &str = "
+pub system Blowup {
+    state x;
+    der(x) = x^2;
 }
+";
 
-pws! {
-    /// Falls at a steady rate to where ln x ends.
-    pub system Logarithm {
-        state x, y;
+/// Falls at a steady rate to where ln x ends.
+const LOGARITHM: &str = "
+pub system Logarithm {
+    state x, y;
+    der(x) = -1;
+    der(y) = ln(x);
+}
+";
+
+/// Both fields point at the interface where y > 0.
+const STUCK: &str = "
+pub system Stuck {
+    state x, y;
+    interface wall = x;
+    region right where wall > 0 {
         der(x) = -1;
-        der(y) = ln(x);
+        der(y) = 0;
+    }
+    region left where wall < 0 {
+        der(x) = y;
+        der(y) = 0;
     }
 }
+";
 
-pws! {
-    /// Both fields point at the interface where y > 0.
-    pub system Stuck {
-        state x, y;
-        interface wall = x;
-        region right where wall > 0 {
-            der(x) = -1;
-            der(y) = 0;
-        }
-        region left where wall < 0 {
-            der(x) = y;
-            der(y) = 0;
-        }
+/// The field beyond the interface is tangential to it where it is met.
+const TANGENT: &str = "
+pub system Tangent {
+    state x, y;
+    interface wall = x;
+    region right where wall > 0 {
+        der(x) = -1;
+        der(y) = 0;
+    }
+    region left where wall < 0 {
+        der(x) = y - 1;
+        der(y) = x;
     }
 }
-
-pws! {
-    /// The field beyond the interface is tangential to it where it is met.
-    pub system Tangent {
-        state x, y;
-        interface wall = x;
-        region right where wall > 0 {
-            der(x) = -1;
-            der(y) = 0;
-        }
-        region left where wall < 0 {
-            der(x) = y - 1;
-            der(y) = x;
-        }
-    }
-}
+";
 
 /// A description without a source.
 const fn description(
@@ -129,51 +127,46 @@ const fn description(
     }
 }
 
-/// The description of [`Circle`].
-const CIRCLE: Description = description("circle", "a circle that touches a wall", &[-1.0, 0.1]);
-/// The description of [`Quartic`].
-const QUARTIC: Description = description("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
-/// The description of [`Warped`].
-const WARPED: Description = description(
-    "warped",
-    "a star bound more on one side of an axis",
-    &[0.05, 0.1, 0.44, 0.05],
-);
-
-/// [`Circle`]
+/// [`CIRCLE`]
 pub(super) fn circle() -> Problem {
-    registry::of(CIRCLE, &Circle::default())
+    let description = description("circle", "a circle that touches a wall", &[-1.0, 0.1]);
+    registry::of(description, CIRCLE)
 }
 
-/// [`Quartic`]
+/// [`QUARTIC`]
 pub(super) fn quartic() -> Problem {
-    registry::of(QUARTIC, &Quartic::default())
+    let description = description("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
+    registry::of(description, QUARTIC)
 }
 
-/// [`Warped`]
+/// [`WARPED`]
 pub(super) fn warped() -> Problem {
-    registry::of(WARPED, &Warped::default())
+    let title = "a star bound more on one side of an axis";
+    registry::of(
+        description("warped", title, &[0.05, 0.1, 0.44, 0.05]),
+        WARPED,
+    )
 }
 
-/// [`Blowup`], which is infinite at t = 1.
+/// [`BLOWUP`], which is infinite at t = 1.
 pub(super) fn blowup() -> Problem {
-    registry::of(description("blowup", "blow-up", &[1.0]), &Blowup {})
+    registry::of(description("blowup", "blow-up", &[1.0]), BLOWUP)
 }
 
-/// [`Logarithm`], which ends at t = 1.
+/// [`LOGARITHM`], which ends at t = 1.
 pub(super) fn logarithm() -> Problem {
     let description = description("logarithm", "the end of a logarithm", &[1.0, 0.0]);
-    registry::of(description, &Logarithm {})
+    registry::of(description, LOGARITHM)
 }
 
-/// [`Stuck`], from where it comes to the interface at t = 1.
+/// [`STUCK`], from where it comes to the interface at t = 1.
 pub(super) fn stuck() -> Problem {
     let description = description("stuck", "two fields against each other", &[1.0, 1.0]);
-    registry::of(description, &Stuck {})
+    registry::of(description, STUCK)
 }
 
-/// [`Tangent`], from where it comes to the interface at t = 1.
+/// [`TANGENT`], from where it comes to the interface at t = 1.
 pub(super) fn tangent() -> Problem {
     let description = description("tangent", "a field along an interface", &[1.0, 1.0]);
-    registry::of(description, &Tangent {})
+    registry::of(description, TANGENT)
 }

@@ -6,11 +6,9 @@
 //! Source: A. T. S. Wan, A. Bihlo, J.-C. Nave, *Conservative methods for dynamical systems*,
 //! SIAM J. Numer. Anal. 55 (2017), for the smooth system.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Oscillator with unequal damping on the way out and on the way back.
     pub system Damped {
         state x, v;

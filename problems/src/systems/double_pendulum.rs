@@ -11,11 +11,9 @@
 //! Source: L. D. Landau, E. M. Lifshitz, *Mechanics*, §5, problem 1; H. J. Korsch, H.-J. Jodl,
 //! T. Hartmann, *Chaos*, chapter 5.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Double pendulum.
     pub system DoublePendulum {
         /// Angles from the vertical.

@@ -9,11 +9,9 @@
 //! J.-C. Nave, *On the arbitrarily long-term stability of conservative methods*, SIAM J. Numer.
 //! Anal. 56 (2018).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Motion along elliptic curves, with another curve inside the unit circle.
     pub system Elliptic {
         state x, y;

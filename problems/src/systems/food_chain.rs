@@ -14,11 +14,9 @@
 //! food chain*, Math. Magazine 75 (2002); threshold harvest: M. I. S. Costa, E. Kaszkurewicz,
 //! A. Bhaya, L. Hsu, Ecol. Modelling 128 (2000).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Food chain of three species, the middle one harvested while its prey abounds.
     pub system FoodChain {
         /// Prey.

@@ -8,11 +8,9 @@
 //! Alamos report LA-1940 (1955); the stop: S. W. Shaw, P. J. Holmes, *A periodically forced
 //! piecewise linear oscillator*, J. Sound Vib. 90 (1983).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Fermi–Pasta–Ulam–Tsingou chain of eight masses whose first mass meets a stop.
     pub system FputChain {
         const n = 8;

@@ -9,12 +9,10 @@
 //! Source: E. Fermi, J. Pasta, S. Ulam (and M. Tsingou), *Studies of nonlinear problems I*, Los
 //! Alamos report LA-1940 (1955).
 
-use dmm_runtime::pws;
-
 use super::fput_chain::parabola;
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Fermi–Pasta–Ulam–Tsingou chain of thirty-two masses with a bond of broken-linear force.
     pub system FputChain32 {
         const n = 32;

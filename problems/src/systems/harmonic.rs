@@ -7,11 +7,9 @@
 //! Source: A. N. Hirani, A. T. S. Wan, N. Wojtalewicz, *Conservative integrators for piecewise
 //! smooth systems with transversal dynamics*, §4.1 (its ω² is our k).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Oscillator whose spring stiffens below y = 0.
     pub system Harmonic {
         state x, y;

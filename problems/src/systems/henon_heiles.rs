@@ -6,11 +6,9 @@
 //! Source: M. Hénon, C. Heiles, *The applicability of the third integral of motion*, Astron. J.
 //! 69 (1964).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// A star in the field of an axisymmetric galaxy.
     pub system HenonHeiles {
         /// Position.

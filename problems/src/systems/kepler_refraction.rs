@@ -13,11 +13,9 @@
 //! Source: E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, I.2; the
 //! refraction at a circle is a piecewise-smooth variant.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Planet whose attraction grows inside the unit circle.
     pub system KeplerRefraction {
         /// Position.

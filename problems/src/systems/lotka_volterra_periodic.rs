@@ -7,11 +7,9 @@
 //! Source: A. T. S. Wan, A. Bihlo, J.-C. Nave, *Conservative methods for dynamical systems*,
 //! SIAM J. Numer. Anal. 55 (2017), for the smooth system.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Predator and prey, with both rates of the prey changing where the prey passes x = 1.
     pub system LotkaVolterra {
         /// Prey.

@@ -5,8 +5,14 @@
 //! classics that exercise other functions and strategies. These are compared with the
 //! independent integrator of [`accurate`](crate::accurate).
 //!
+//! A program compiles their declarations when it runs. With the feature `types` they are types as well,
+//! for comparisons and tests.
+//!
 //! Systems with events and switches are files of their own, in `hybrid/`, and are compared with
 //! closed forms and published numbers.
+
+#[macro_use]
+mod declaration;
 
 pub mod damped;
 pub mod double_pendulum;
@@ -30,24 +36,13 @@ pub mod toda;
 pub mod toda_chain;
 pub mod toda_chain_32;
 
-pub use damped::Damped;
-pub use double_pendulum::DoublePendulum;
-pub use elliptic::Elliptic;
-pub use food_chain::FoodChain;
-pub use fput_chain::FputChain;
-pub use fput_chain_32::FputChain32;
-pub use harmonic::Harmonic;
-pub use henon_heiles::HenonHeiles;
-pub use kepler_refraction::KeplerRefraction;
-pub use lotka_volterra_periodic::LotkaVolterra;
-pub use pendulum::Pendulum;
-pub use poschl_teller::PoschlTeller;
-pub use relativistic_oscillator::RelativisticOscillator;
-pub use rigid_body::RigidBody;
-pub use saturating_inductor::SaturatingInductor;
-pub use saturating_spring::SaturatingSpring;
-pub use spiral::Spiral;
-pub use three_body::ThreeBody;
-pub use toda::Toda;
-pub use toda_chain::TodaChain;
-pub use toda_chain_32::TodaChain32;
+#[cfg(feature = "types")]
+pub use {
+    damped::Damped, double_pendulum::DoublePendulum, elliptic::Elliptic, food_chain::FoodChain,
+    fput_chain::FputChain, fput_chain_32::FputChain32, harmonic::Harmonic,
+    henon_heiles::HenonHeiles, kepler_refraction::KeplerRefraction,
+    lotka_volterra_periodic::LotkaVolterra, pendulum::Pendulum, poschl_teller::PoschlTeller,
+    relativistic_oscillator::RelativisticOscillator, rigid_body::RigidBody,
+    saturating_inductor::SaturatingInductor, saturating_spring::SaturatingSpring, spiral::Spiral,
+    three_body::ThreeBody, toda::Toda, toda_chain::TodaChain, toda_chain_32::TodaChain32,
+};

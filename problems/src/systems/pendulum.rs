@@ -8,11 +8,9 @@
 //! Numerical Integration*, I.1.2; the change of k at the lowest point is a piecewise-smooth
 //! variant in the manner of Hirani, Wan & Wojtalewicz, §4.1.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Pendulum that swings against a stronger restoring torque on the left.
     pub system Pendulum {
         state q, p;

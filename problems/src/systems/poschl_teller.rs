@@ -6,11 +6,9 @@
 //! Source: G. Pöschl, E. Teller, *Bemerkungen zur Quantenmechanik des anharmonischen
 //! Oszillators*, Z. Phys. 83 (1933); S. Flügge, *Practical Quantum Mechanics*, problem 39.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Particle in the Pöschl–Teller well.
     pub system PoschlTeller {
         state q, p;

@@ -6,11 +6,9 @@
 //! Source: the energy and momentum of L. D. Landau, E. M. Lifshitz, *The Classical Theory of
 //! Fields*, §9, with a harmonic potential.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Harmonic oscillator at relativistic speed.
     pub system RelativisticOscillator {
         state q, p;

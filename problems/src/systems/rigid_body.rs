@@ -8,11 +8,9 @@
 //! Source: E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, IV.1 and VII.5;
 //! piecewise-smooth variant.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Free rigid body whose moments of inertia change where it tumbles through y = 0.
     pub system RigidBody {
         /// Components of the angular momentum.

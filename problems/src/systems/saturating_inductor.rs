@@ -9,11 +9,9 @@
 //! Source: L. O. Chua, C. A. Desoer, E. S. Kuh, *Linear and Nonlinear Circuits* (1987), for
 //! circuits with piecewise-linear elements.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Circuit of a capacitor and an inductor whose core saturates.
     pub system SaturatingInductor {
         /// Charge of the capacitor.

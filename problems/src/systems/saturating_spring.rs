@@ -6,11 +6,9 @@
 //! Source: the conservative oscillators of A. H. Nayfeh, D. T. Mook, *Nonlinear Oscillations*,
 //! chapter 2, with the arctangent as the saturating force.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Oscillator whose spring saturates.
     pub system SaturatingSpring {
         state q, p;

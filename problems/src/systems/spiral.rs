@@ -7,11 +7,9 @@
 //! Source: the discontinuous spiral of A. Nurkanović, M. Sperl, S. Albrecht, M. Diehl,
 //! *Finite elements with switch detection for direct optimal control of nonsmooth systems*, eq. (47).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Spiral that reverses its sense of rotation where it leaves the unit disc.
     pub system Spiral {
         state x1, x2;

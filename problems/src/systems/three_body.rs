@@ -8,11 +8,9 @@
 //! problem in the case of equal masses*, Ann. of Math. 152 (2000), with C. Simó's initial
 //! values.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Three bodies in a plane.
     pub system ThreeBody {
         /// Positions.

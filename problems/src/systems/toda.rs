@@ -8,11 +8,9 @@
 //! (1967); H. Flaschka, *The Toda lattice II*, Phys. Rev. B 9 (1974); Hairer, Lubich & Wanner,
 //! *Geometric Numerical Integration*, X.1.5.
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Toda lattice of three particles on a ring.
     pub system Toda {
         /// Displacements.

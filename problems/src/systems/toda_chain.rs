@@ -11,11 +11,9 @@
 //! wave propagation in a discrete chain of bilinear oscillators*, Nonlin. Processes Geophys. 24
 //! (2017).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Toda ring of eight masses with a crack.
     pub system TodaChain {
         const n = 8;

@@ -6,11 +6,9 @@
 //!
 //! Source: as for [`toda_chain`](super::toda_chain).
 
-use dmm_runtime::pws;
-
 use crate::problem::Description;
 
-pws! {
+declaration! {
     /// Toda ring of thirty-two masses with a crack.
     pub system TodaChain32 {
         const n = 32;

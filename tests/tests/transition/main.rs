@@ -2,6 +2,7 @@
 
 mod crossings;
 mod ends;
+mod faulty;
 mod points;
 mod starts;
 mod taylor;

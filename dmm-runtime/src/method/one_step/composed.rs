@@ -68,7 +68,8 @@ where
         Adaptive::new(Self::SUB_STEPS, tolerance)
     }
 
-    const SUB_STEPS: SubSteps = SubSteps {
+    /// The one-step map.
+    pub const SUB_STEPS: SubSteps = SubSteps {
         order: ORDER,
         weights: Self::WEIGHTS,
     };

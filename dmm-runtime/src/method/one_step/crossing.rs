@@ -234,7 +234,7 @@ impl NewtonLocator {
         let part = elapsed / crossing.upper;
         let mut increment =
             velocity * elapsed + (upper - velocity * crossing.upper) * (part * part);
-        let iterations = if Map::EXACT_VELOCITY {
+        let iterations = if crossing.map.has_exact_velocity() {
             Self::LARGEST_ITERATIONS
         } else {
             Self::LARGEST_LINEAR
@@ -254,7 +254,7 @@ impl NewtonLocator {
                 return None;
             }
             let settled = correction.delta.amax() <= Self::CONVERGED * increment.amax();
-            let is_last = Map::EXACT_VELOCITY
+            let is_last = crossing.map.has_exact_velocity()
                 || delta.abs() <= f64::EPSILON * elapsed.abs()
                 || delta.abs() >= before;
             before = delta.abs();

@@ -29,11 +29,17 @@ pub trait OneStep: Clone + Sync {
 
     /// Whether a step conserves ψ but for rounding errors. Where it does not, the correction of the
     /// level is repeated until it does.
-    const CONSERVES: bool = true;
+    #[inline(always)]
+    fn conserves(&self) -> bool {
+        true
+    }
 
     /// Whether the velocity of [`OneStep::correction`] is exact, so that Newton's method for a crossing
     /// converges quadratically. Where it is that of a close map, the iteration goes on to rounding.
-    const EXACT_VELOCITY: bool = true;
+    #[inline(always)]
+    fn has_exact_velocity(&self) -> bool {
+        true
+    }
 
     /// The order p of accuracy.
     fn order(&self) -> usize;

@@ -155,7 +155,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
         let time = self.cursor.time.after(located.elapsed);
         self.outputs(dynamics, located.elapsed, time)?;
         let corrects_level = self.corrects_level;
-        if !Map::CONSERVES
+        if !self.map.conserves()
             && corrects_level
             && !dynamics.guards().is_condition(guard)
             && let Some(rate) = self.settle(dynamics, level, guard, &located)
@@ -163,7 +163,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
             return Ok(Ended::AtGuard { guard, rate });
         }
         // where there is no such point, g = 0 is what counts
-        self.corrects_level &= Map::CONSERVES;
+        self.corrects_level &= self.map.conserves();
         let accepted = self.accept(dynamics, level, &located.increment, located.elapsed, time);
         self.corrects_level = corrects_level;
         accepted?;

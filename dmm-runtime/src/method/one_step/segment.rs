@@ -40,7 +40,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
     ) -> Result<(), Failure> {
         let mut state = self.cursor.state.after(increment);
         if self.corrects_level {
-            restore::<Map, N, M, D>(dynamics, level, time, &mut state, increment);
+            restore(self.map, dynamics, (level, time), &mut state, increment);
         }
         let state = state.normalised();
         // neither the step nor the correction has left the range of doubles
@@ -82,9 +82,9 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
 /// is more than rounding: it is left for later where it would lead across a guard.
 #[inline(always)]
 pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+    map: &Map,
     dynamics: &D,
-    level: &Level<N, M>,
-    time: Time,
+    (level, time): (&Level<N, M>, Time),
     state: &mut State<N>,
     increment: &Vector<f64, N>,
 ) {
@@ -94,7 +94,7 @@ pub(super) fn restore<Map: OneStep, const N: usize, const M: usize, D: Dynamics<
     let before = *state;
     let mut displacement = level.correction(dynamics, time, state, (&weights, true));
     state.remainder += displacement;
-    if Map::CONSERVES {
+    if map.conserves() {
         return;
     }
     for _ in 1..MOST_CORRECTIONS {

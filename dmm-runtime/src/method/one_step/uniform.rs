@@ -312,7 +312,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
             }
             if corrects {
                 next = if corrects_level {
-                    on_level::<Map, N, M, D>(dynamics, level, (state, increment), (grid, node))
+                    on_level(map, dynamics, level, (state, increment), (grid, node))
                 } else {
                     next.normalised()
                 };
@@ -436,6 +436,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Steps<'_, Map, Loc,
 /// The state after an increment, put back on its level.
 #[inline(never)]
 fn on_level<Map: OneStep, const N: usize, const M: usize, D: Dynamics<f64, N, M>>(
+    map: &Map,
     dynamics: &D,
     level: &mut Level<N, M>,
     (state, increment): (State<N>, Vector<f64, N>),
@@ -449,6 +450,7 @@ fn on_level<Map: OneStep, const N: usize, const M: usize, D: Dynamics<f64, N, M>
     }
     // into x at once: left in the remainder, which the flow does not turn, it would later be
     // taken off along a Λ that has turned away
-    restore::<Map, N, M, D>(dynamics, level, Time::new(t), &mut state, &increment);
+    let time = Time::new(t);
+    restore(map, dynamics, (level, time), &mut state, &increment);
     state.normalised()
 }

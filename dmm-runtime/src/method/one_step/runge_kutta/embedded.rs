@@ -221,8 +221,13 @@ impl PartialEq for EmbeddedRungeKutta {
 impl OneStep for EmbeddedRungeKutta {
     type Memory<const N: usize> = Memory<N>;
 
-    const CONSERVES: bool = RungeKutta::CONSERVES;
-    const EXACT_VELOCITY: bool = RungeKutta::EXACT_VELOCITY;
+    fn conserves(&self) -> bool {
+        self.method().conserves()
+    }
+
+    fn has_exact_velocity(&self) -> bool {
+        self.method().has_exact_velocity()
+    }
 
     fn order(&self) -> usize {
         self.method().order()

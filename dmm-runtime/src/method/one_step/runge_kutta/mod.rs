@@ -220,8 +220,15 @@ pub struct Memory<const N: usize> {
 impl OneStep for RungeKutta {
     type Memory<const N: usize> = Memory<N>;
 
-    const CONSERVES: bool = false;
-    const EXACT_VELOCITY: bool = false;
+    #[inline(always)]
+    fn conserves(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn has_exact_velocity(&self) -> bool {
+        false
+    }
 
     fn order(&self) -> usize {
         self.tableau.order
