@@ -13,6 +13,9 @@
 //!   with;
 //! - [`random`] numbers and [`threads`] of studies.
 
+#[macro_use]
+mod declaration;
+
 pub mod accurate;
 pub mod conservation;
 pub mod convergence;

@@ -75,7 +75,7 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// a batch for each core is in memory, never all. A member that fails does not disturb the
 /// others; its result is the error, with the point that was reached.
 ///
-/// [`Taylor`](crate::Taylor) integrates four trajectories at once in the lanes of vector
+/// [`Taylor`](crate::Taylor) integrates eight trajectories at once in the lanes of vector
 /// registers, each with steps and transitions of its own, where the processor has what that takes
 /// (x86-64 with AVX2 and FMA, aarch64; found out when the program runs). They are of order 18 at
 /// every tolerance, by the code of a single trajectory: where that order is [`Taylor`]'s too, from

@@ -5,16 +5,17 @@
 //! at most, so that the memory needed does not depend on the number of items.
 
 use std::any::Any;
-use std::collections::BTreeMap;
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::mpsc::{self, Receiver, Sender};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
 /// Batches under way, for each thread.
 const AHEAD: usize = 3;
 
+/// A batch and its number.
+type Job<Item> = (u64, Vec<Item>);
 /// What came of a batch, or the panic that it ended in.
 type Done<Out> = (u64, Result<Vec<Out>, Box<dyn Any + Send>>);
 
@@ -28,7 +29,8 @@ pub(super) struct Pool {
 /// The results on their way to the caller.
 struct Delivery<Out, Sink> {
     sink: Sink,
-    early: BTreeMap<u64, Vec<Out>>,
+    /// Those of the batch to be delivered next and of the ones after it, where they are there.
+    early: VecDeque<Option<Vec<Out>>>,
     /// The batch to be delivered next.
     next: u64,
     /// Results delivered.
@@ -38,8 +40,13 @@ struct Delivery<Out, Sink> {
 impl<Out, Sink: FnMut(usize, Out) -> ControlFlow<()>> Delivery<Out, Sink> {
     /// Takes what came of a batch, and delivers what is complete.
     fn take(&mut self, number: u64, results: Vec<Out>) -> ControlFlow<()> {
-        self.early.insert(number, results);
-        while let Some(results) = self.early.remove(&self.next) {
+        let place = (number - self.next) as usize;
+        if self.early.len() <= place {
+            self.early.resize_with(place + 1, || None);
+        }
+        self.early[place] = Some(results);
+        while let Some(results) = self.early.front_mut().and_then(Option::take) {
+            self.early.pop_front();
             self.next += 1;
             for result in results {
                 let index = self.delivered;
@@ -48,6 +55,96 @@ impl<Out, Sink: FnMut(usize, Out) -> ControlFlow<()>> Delivery<Out, Sink> {
             }
         }
         ControlFlow::Continue(())
+    }
+}
+
+/// What the calling thread and the others hand to each other.
+struct Exchange<Item, Out> {
+    state: Mutex<State<Item, Out>>,
+    /// There is a job, or there will be none.
+    given: Condvar,
+    /// There is a result.
+    made: Condvar,
+}
+
+/// See [`Exchange`].
+struct State<Item, Out> {
+    jobs: VecDeque<Job<Item>>,
+    done: VecDeque<Done<Out>>,
+    /// Whether there are no more jobs.
+    is_closed: bool,
+}
+
+impl<Item, Out> Exchange<Item, Out> {
+    fn new() -> Self {
+        Self {
+            state: Mutex::new(State {
+                jobs: VecDeque::new(),
+                done: VecDeque::new(),
+                is_closed: false,
+            }),
+            given: Condvar::new(),
+            made: Condvar::new(),
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State<Item, Out>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn give(&self, job: Job<Item>) {
+        self.lock().jobs.push_back(job);
+        self.given.notify_one();
+    }
+
+    /// Waits for a result.
+    fn result(&self) -> Done<Out> {
+        let mut state = self.lock();
+        loop {
+            if let Some(done) = state.done.pop_front() {
+                return done;
+            }
+            let woken = self.made.wait(state);
+            state = woken.unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Waits for a job; nothing if there are no more.
+    fn job(&self) -> Option<Job<Item>> {
+        let mut state = self.lock();
+        loop {
+            if let Some(job) = state.jobs.pop_front() {
+                return Some(job);
+            }
+            if state.is_closed {
+                return None;
+            }
+            let woken = self.given.wait(state);
+            state = woken.unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    /// Works on batches until there are no more.
+    fn serve(&self, work: &(impl Fn(Vec<Item>) -> Vec<Out> + Sync)) {
+        while let Some((number, batch)) = self.job() {
+            // a thread that is gone must not be waited for
+            let outcome = catch_unwind(AssertUnwindSafe(|| work(batch)));
+            self.lock().done.push_back((number, outcome));
+            self.made.notify_one();
+        }
+    }
+}
+
+/// Ends the work, also where a panic leaves it: what is not begun is not done.
+struct Closes<'a, Item, Out>(&'a Exchange<Item, Out>);
+
+impl<Item, Out> Drop for Closes<'_, Item, Out> {
+    fn drop(&mut self) {
+        let mut state = self.0.lock();
+        state.is_closed = true;
+        state.jobs.clear();
+        drop(state);
+        self.0.given.notify_all();
     }
 }
 
@@ -67,7 +164,7 @@ impl Pool {
         };
         let mut delivery = Delivery {
             sink,
-            early: BTreeMap::new(),
+            early: VecDeque::new(),
             next: 0,
             delivered: 0,
         };
@@ -79,17 +176,13 @@ impl Pool {
             }
             return delivery.delivered;
         }
-        let (jobs, queue) = mpsc::channel();
-        let (results, done) = mpsc::channel();
-        let queue = Mutex::new(queue);
+        let exchange = Exchange::new();
         thread::scope(|scope| {
+            let _closes = Closes(&exchange);
             for _ in 0..self.threads {
-                let results = results.clone();
-                let (queue, work) = (&queue, &work);
-                scope.spawn(move || serve(queue, &results, work));
+                scope.spawn(|| exchange.serve(&work));
             }
-            self.feed(&mut batches, &jobs, &done, &mut delivery);
-            drop(jobs);
+            self.feed(&mut batches, &exchange, &mut delivery);
         });
         delivery.delivered
     }
@@ -98,8 +191,7 @@ impl Pool {
     fn feed<Item, Out, Sink: FnMut(usize, Out) -> ControlFlow<()>>(
         self,
         batches: &mut Batches<impl Iterator<Item = Item>>,
-        jobs: &Sender<(u64, Vec<Item>)>,
-        done: &Receiver<Done<Out>>,
+        exchange: &Exchange<Item, Out>,
         delivery: &mut Delivery<Out, Sink>,
     ) {
         loop {
@@ -107,16 +199,12 @@ impl Pool {
             while batches.next < most
                 && let Some(batch) = batches.next()
             {
-                if jobs.send(batch).is_err() {
-                    return;
-                }
+                exchange.give(batch);
             }
             if delivery.next == batches.next {
                 return;
             }
-            let Ok((number, results)) = done.recv() else {
-                return;
-            };
+            let (number, results) = exchange.result();
             match results {
                 Ok(results) => {
                     if delivery.take(number, results).is_break() {
@@ -145,23 +233,6 @@ impl<I: Iterator> Batches<I> {
             self.next += 1;
             (number, batch)
         })
-    }
-}
-
-/// Works on batches until there are no more.
-fn serve<Item, Out>(
-    queue: &Mutex<Receiver<(u64, Vec<Item>)>>,
-    results: &Sender<Done<Out>>,
-    work: &(impl Fn(Vec<Item>) -> Vec<Out> + Sync),
-) {
-    loop {
-        let job = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
-        let Ok((number, batch)) = job else { return };
-        // a thread that is gone must not be waited for
-        let outcome = catch_unwind(AssertUnwindSafe(|| work(batch)));
-        if results.send((number, outcome)).is_err() {
-            return;
-        }
     }
 }
 

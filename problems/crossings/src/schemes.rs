@@ -2,9 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use dmm_runtime::dynamic::AnyMap;
 use dmm_runtime::{
-    Best, Composed, Ensemble, Error, Integrator, Member, Method, Observer, Point, Symmetric,
-    System, Taylor, Transition, Vector,
+    Adaptive, Best, Composed, Ensemble, Error, Integrator, Member, Method, Observer, Point,
+    Symmetric, System, Taylor, Transition, Uniform, Vector,
 };
 
 use crate::families::Family;
@@ -15,11 +16,10 @@ enum Kind {
     Taylor,
     Best,
     Lanes,
-    Symmetric,
-    SymmetricAdaptive,
-    /// Of an order.
-    Composed(usize),
-    ComposedAdaptive(usize),
+    /// The conservative map of an order, in uniform steps.
+    Uniform(usize),
+    /// In steps by a tolerance.
+    Adaptive(usize),
 }
 
 /// A scheme at a setting.
@@ -52,34 +52,14 @@ pub(super) const SETTINGS: [Setting; 13] = [
     setting("lanes 1e-12", Kind::Lanes, 1e-12, [1e-12, 1e-9]),
     setting("lanes 1e-6", Kind::Lanes, 1e-6, [1e-6, 1e-3]),
     setting("Taylor 1e-6", Kind::Taylor, 1e-6, [1e-6, 1e-3]),
-    setting("Symmetric", Kind::Symmetric, 0.01, [1e-5, 3e-2]),
-    setting(
-        "Symmetric 1e-5",
-        Kind::SymmetricAdaptive,
-        1e-5,
-        [1e-5, 3e-2],
-    ),
-    setting("Composed<4>", Kind::Composed(4), 0.02, [1e-8, 1e-3]),
-    setting(
-        "Composed<4> 1e-7",
-        Kind::ComposedAdaptive(4),
-        1e-7,
-        [1e-7, 1e-3],
-    ),
-    setting("Composed<6>", Kind::Composed(6), 0.05, [1e-8, 1e-3]),
-    setting(
-        "Composed<6> 1e-9",
-        Kind::ComposedAdaptive(6),
-        1e-9,
-        [1e-9, 1e-4],
-    ),
-    setting("Composed<8>", Kind::Composed(8), 0.1, [1e-8, 1e-3]),
-    setting(
-        "Composed<8> 1e-10",
-        Kind::ComposedAdaptive(8),
-        1e-10,
-        [1e-10, 1e-5],
-    ),
+    setting("Symmetric", Kind::Uniform(2), 0.01, [1e-5, 3e-2]),
+    setting("Symmetric 1e-5", Kind::Adaptive(2), 1e-5, [1e-5, 3e-2]),
+    setting("Composed<4>", Kind::Uniform(4), 0.02, [1e-8, 1e-3]),
+    setting("Composed<4> 1e-7", Kind::Adaptive(4), 1e-7, [1e-7, 1e-3]),
+    setting("Composed<6>", Kind::Uniform(6), 0.05, [1e-8, 1e-3]),
+    setting("Composed<6> 1e-9", Kind::Adaptive(6), 1e-9, [1e-9, 1e-4]),
+    setting("Composed<8>", Kind::Uniform(8), 0.1, [1e-8, 1e-3]),
+    setting("Composed<8> 1e-10", Kind::Adaptive(8), 1e-10, [1e-10, 1e-5]),
 ];
 
 /// Every system is run with the first of [`SETTINGS`]; then come those of the lanes; the others
@@ -192,19 +172,18 @@ pub(super) fn run<Sys: Family<N>, const N: usize>(
     match setting.kind {
         Kind::Taylor | Kind::Lanes => by!(Taylor::tolerance(value)),
         Kind::Best => by!(Best::tolerance(value)),
-        Kind::Symmetric => by!(Symmetric::step_size(tau)),
-        Kind::SymmetricAdaptive => by!(Symmetric::tolerance(value)),
-        // one type for all orders, compiled once
-        Kind::Composed(order) => by!(match order {
-            4 => Composed::<4>::step_size(tau),
-            6 => Composed::<6>::step_size(tau),
-            _ => Composed::<8>::step_size(tau),
-        }),
-        Kind::ComposedAdaptive(order) => by!(match order {
-            4 => Composed::<4>::tolerance(value),
-            6 => Composed::<6>::tolerance(value),
-            _ => Composed::<8>::tolerance(value),
-        }),
+        Kind::Uniform(order) => by!(Uniform::new(map(order), tau)),
+        Kind::Adaptive(order) => by!(Adaptive::new(map(order), value)),
+    }
+}
+
+/// The conservative map of an order.
+fn map(order: usize) -> AnyMap {
+    match order {
+        2 => Symmetric.into(),
+        4 => Composed::<4>::SUB_STEPS.into(),
+        6 => Composed::<6>::SUB_STEPS.into(),
+        _ => Composed::<8>::SUB_STEPS.into(),
     }
 }
 

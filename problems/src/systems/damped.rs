@@ -8,7 +8,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Oscillator with unequal damping on the way out and on the way back.
     pub system Damped {
         state x, v;

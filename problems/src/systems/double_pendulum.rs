@@ -13,7 +13,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Double pendulum.
     pub system DoublePendulum {
         /// Angles from the vertical.

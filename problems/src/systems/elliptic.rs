@@ -11,7 +11,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Motion along elliptic curves, with another curve inside the unit circle.
     pub system Elliptic {
         state x, y;

@@ -16,7 +16,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Food chain of three species, the middle one harvested while its prey abounds.
     pub system FoodChain {
         /// Prey.

@@ -10,7 +10,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Fermi–Pasta–Ulam–Tsingou chain of eight masses whose first mass meets a stop.
     pub system FputChain {
         const n = 8;

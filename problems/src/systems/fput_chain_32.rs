@@ -12,7 +12,7 @@
 use super::fput_chain::parabola;
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Fermi–Pasta–Ulam–Tsingou chain of thirty-two masses with a bond of broken-linear force.
     pub system FputChain32 {
         const n = 32;

@@ -9,7 +9,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Oscillator whose spring stiffens below y = 0.
     pub system Harmonic {
         state x, y;

@@ -8,7 +8,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// A star in the field of an axisymmetric galaxy.
     pub system HenonHeiles {
         /// Position.

@@ -15,7 +15,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Planet whose attraction grows inside the unit circle.
     pub system KeplerRefraction {
         /// Position.

@@ -9,7 +9,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Predator and prey, with both rates of the prey changing where the prey passes x = 1.
     pub system LotkaVolterra {
         /// Prey.

@@ -11,9 +11,6 @@
 //! Systems with events and switches are files of their own, in `hybrid/`, and are compared with
 //! closed forms and published numbers.
 
-#[macro_use]
-mod declaration;
-
 pub mod damped;
 pub mod double_pendulum;
 pub mod elliptic;

@@ -10,7 +10,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Pendulum that swings against a stronger restoring torque on the left.
     pub system Pendulum {
         state q, p;

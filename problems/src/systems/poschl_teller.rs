@@ -8,7 +8,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Particle in the Pöschl–Teller well.
     pub system PoschlTeller {
         state q, p;

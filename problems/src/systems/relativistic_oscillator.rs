@@ -8,7 +8,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Harmonic oscillator at relativistic speed.
     pub system RelativisticOscillator {
         state q, p;

@@ -10,7 +10,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Free rigid body whose moments of inertia change where it tumbles through y = 0.
     pub system RigidBody {
         /// Components of the angular momentum.

@@ -11,7 +11,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Circuit of a capacitor and an inductor whose core saturates.
     pub system SaturatingInductor {
         /// Charge of the capacitor.

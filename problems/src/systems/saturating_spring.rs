@@ -8,7 +8,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Oscillator whose spring saturates.
     pub system SaturatingSpring {
         state q, p;

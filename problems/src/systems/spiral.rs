@@ -9,7 +9,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Spiral that reverses its sense of rotation where it leaves the unit disc.
     pub system Spiral {
         state x1, x2;

@@ -10,7 +10,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Three bodies in a plane.
     pub system ThreeBody {
         /// Positions.

@@ -10,7 +10,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Toda lattice of three particles on a ring.
     pub system Toda {
         /// Displacements.

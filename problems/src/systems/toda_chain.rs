@@ -13,7 +13,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Toda ring of eight masses with a crack.
     pub system TodaChain {
         const n = 8;

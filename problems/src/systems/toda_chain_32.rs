@@ -8,7 +8,7 @@
 
 use crate::problem::Description;
 
-declaration! {
+pws! {
     /// Toda ring of thirty-two masses with a crack.
     pub system TodaChain32 {
         const n = 32;
