@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 /// From the bottom to the top.
-const LAYERS: [&str; 18] = [
+const LAYERS: [&str; 19] = [
+    "declaration",
     "random",
     "threads",
     "fit",

@@ -22,12 +22,12 @@ const SETTINGS: [Setting; 3] = [
 const T_END: f64 = 3.0;
 
 pub(super) fn study(_extent: Extent, observer: &mut dyn Observe) -> Vec<Panel> {
-    if observer.begins("formulas").is_break() {
-        return Vec::new();
+    for setting in &SETTINGS {
+        if observer.begins(setting.name).is_break() {
+            break;
+        }
+        formulas(observer, setting);
     }
-    SETTINGS
-        .iter()
-        .for_each(|setting| formulas(observer, setting));
     Vec::new()
 }
 
