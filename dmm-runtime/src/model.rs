@@ -170,7 +170,7 @@ impl Model {
     /// More than 128 states, or more than 8 conserved quantities.
     pub fn visit<V: ModelVisitor>(&self, visitor: V) -> Result<V::Output, Error> {
         sizes!(self, visitor:
-            (2, 1) (4, 3) (8, 6) (32, 8) (128, 8));
+            (2, 1) (4, 3) (8, 6) (16, 8) (64, 4) (128, 8));
         Err(ErrorKind::InvalidInput {
             what: "system",
             value: format!("{} states", self.code.metadata.states.len()),
