@@ -14,13 +14,22 @@ pub(crate) fn products<S: Copy, const W: usize>(
     b: &[S],
 ) -> [S; W] {
     let mut sums = [zero; W];
+    let (a, b) = (a.as_chunks::<W>().0, b.as_chunks::<W>().0);
+    let rows = a.len().min(b.len());
     for at in (0..W).step_by(COLUMNS) {
         let mut some = [zero; COLUMNS];
-        for_rows::<S, W>(a, b, |a, b| {
+        // in the order of `for_rows`; what is passed to that is compiled without the instructions of lanes
+        for place in 0..rows {
+            let row = match rows - place {
+                1 => 0,
+                2 => rows - 1,
+                _ => place + 1,
+            };
+            let (a, b) = (&a[row], &b[rows - 1 - row]);
             for (column, sum) in some.iter_mut().enumerate() {
                 *sum = fused(a[at + column], b[at + column], *sum);
             }
-        });
+        }
         sums[at..at + COLUMNS].copy_from_slice(&some);
     }
     sums
