@@ -15,12 +15,6 @@ struct Entry {
     system: fn() -> Box<AnySystem>,
 }
 
-/// The system of a declaration, compiled at run time.
-fn tape(declaration: &str) -> Result<Box<AnySystem>, String> {
-    let model = Model::compile(declaration).map_err(|error| error.to_string())?;
-    model.into_any().map_err(|error| error.to_string())
-}
-
 /// What is done with every system, by its type.
 #[cfg(feature = "types")]
 pub trait SystemVisitor {
@@ -87,7 +81,9 @@ pub(crate) fn of(description: Description, declaration: &str) -> Problem {
 
 /// The system of a declaration in this package, compiled at run time.
 fn declared(declaration: &str) -> Box<AnySystem> {
-    tape(declaration).unwrap_or_else(|message| unreachable!("a test compiles it: {message}"))
+    let system = Model::compile(declaration).map_err(|error| error.to_string());
+    let system = system.and_then(|model| model.into_any().map_err(|error| error.to_string()));
+    system.unwrap_or_else(|message| unreachable!("a test compiles it: {message}"))
 }
 
 /// Every problem, the piecewise-smooth ones first.

@@ -109,13 +109,14 @@ pub system Tangent {
 }
 ";
 
-/// A description without a source.
-const fn description(
+/// A problem without a source.
+fn problem(
     name: &'static str,
     title: &'static str,
     initial: &'static [f64],
-) -> Description {
-    Description {
+    declaration: &str,
+) -> Problem {
+    let description = Description {
         name,
         title,
         source: "",
@@ -124,49 +125,47 @@ const fn description(
         step_size: 1e-2,
         longest: None,
         reference: None,
-    }
+    };
+    registry::of(description, declaration)
 }
 
 /// [`CIRCLE`]
 pub(super) fn circle() -> Problem {
-    let description = description("circle", "a circle that touches a wall", &[-1.0, 0.1]);
-    registry::of(description, CIRCLE)
+    let title = "a circle that touches a wall";
+    problem("circle", title, &[-1.0, 0.1], CIRCLE)
 }
 
 /// [`QUARTIC`]
 pub(super) fn quartic() -> Problem {
-    let description = description("quartic", "a curve that touches a wall", &[-1.0, 0.1]);
-    registry::of(description, QUARTIC)
+    let title = "a curve that touches a wall";
+    problem("quartic", title, &[-1.0, 0.1], QUARTIC)
 }
 
 /// [`WARPED`]
 pub(super) fn warped() -> Problem {
     let title = "a star bound more on one side of an axis";
-    registry::of(
-        description("warped", title, &[0.05, 0.1, 0.44, 0.05]),
-        WARPED,
-    )
+    problem("warped", title, &[0.05, 0.1, 0.44, 0.05], WARPED)
 }
 
 /// [`BLOWUP`], which is infinite at t = 1.
 pub(super) fn blowup() -> Problem {
-    registry::of(description("blowup", "blow-up", &[1.0]), BLOWUP)
+    problem("blowup", "blow-up", &[1.0], BLOWUP)
 }
 
 /// [`LOGARITHM`], which ends at t = 1.
 pub(super) fn logarithm() -> Problem {
-    let description = description("logarithm", "the end of a logarithm", &[1.0, 0.0]);
-    registry::of(description, LOGARITHM)
+    let title = "the end of a logarithm";
+    problem("logarithm", title, &[1.0, 0.0], LOGARITHM)
 }
 
 /// [`STUCK`], from where it comes to the interface at t = 1.
 pub(super) fn stuck() -> Problem {
-    let description = description("stuck", "two fields against each other", &[1.0, 1.0]);
-    registry::of(description, STUCK)
+    let title = "two fields against each other";
+    problem("stuck", title, &[1.0, 1.0], STUCK)
 }
 
 /// [`TANGENT`], from where it comes to the interface at t = 1.
 pub(super) fn tangent() -> Problem {
-    let description = description("tangent", "a field along an interface", &[1.0, 1.0]);
-    registry::of(description, TANGENT)
+    let title = "a field along an interface";
+    problem("tangent", title, &[1.0, 1.0], TANGENT)
 }
