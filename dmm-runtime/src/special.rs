@@ -20,7 +20,7 @@
 //!
 //! Conventions: the divided differences are symmetric to the last bit, h[a, b] = h[b, a];
 //! outside the domain and at NaN they are NaN; limits at 0 and ∞ are stated with each
-//! function. `examples/special_accuracy.rs` measures what follows against arbitrary precision.
+//! function. `benches/special_accuracy.rs` measures what follows against arbitrary precision.
 //!
 //! # Accuracy of the functions
 //!

@@ -6,7 +6,7 @@ use dmm_runtime::special::*;
 
 const INFINITY: f64 = f64::INFINITY;
 
-/// The bounds are those of the module's documentation; `examples/special_accuracy.rs` measures the
+/// The bounds are those of the module's documentation; `benches/special_accuracy.rs` measures the
 /// same cases at as many samples as one likes.
 fn assert_errors_within_bounds(functions: &[&str]) {
     let cases = accuracy::cases();

@@ -2,7 +2,7 @@
 
 #[path = "accuracy/mod.rs"]
 mod accuracy;
-#[path = "../examples/declarations/mod.rs"]
+#[path = "../benches/declarations/mod.rs"]
 mod declarations;
 
 use accuracy::{measure, scheme};

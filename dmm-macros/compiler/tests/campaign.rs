@@ -1,6 +1,6 @@
 //! A short campaign of disguised declarations.
 //!
-//! The long one is `cargo run --release -p dmm-compiler --example campaign -- --cases 10000`.
+//! The long one is `cargo bench -p dmm-compiler --bench campaign -- --cases 10000`.
 
 #[path = "campaign/mod.rs"]
 mod campaign;

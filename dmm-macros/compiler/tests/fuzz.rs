@@ -1,6 +1,6 @@
 //! A short run of the fuzzer, and what it found before.
 //!
-//! The long run is `cargo run -p dmm-compiler --example fuzz -- --cases 100000 --seed 1`.
+//! The long run is `cargo bench --profile dev -p dmm-compiler --bench fuzz -- --cases 100000 --seed 1`.
 
 #[path = "support/corpus.rs"]
 mod corpus;

@@ -1,7 +1,7 @@
 //! The verdicts on the corpus: what holds is proved with its domain, what is wrong is refuted
 //! with a residual and a point.
 //!
-//! `cargo run -p dmm-compiler --example proof_table` prints them with their times.
+//! `cargo bench --profile dev -p dmm-compiler --bench proof_table` prints them with their times.
 
 #[path = "support/corpus.rs"]
 mod corpus;

@@ -1,1 +1,1 @@
-//! Runs of hundreds of thousands of steps; see `tests/`.
+//! Runs of many steps or from many starts; see `tests/`.

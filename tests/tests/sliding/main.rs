@@ -3,7 +3,6 @@
 mod chains;
 mod codimension;
 mod friction;
-mod orders;
 mod rules;
 
 use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
 //! Right and wrong declarations in disguise: what the compiler says, against what is so.
 //!
 //! ```text
-//! cargo run --release -p dmm-compiler --example campaign -- --cases 10000 --seed 1
+//! cargo bench -p dmm-compiler --bench campaign -- --cases 10000 --seed 1
 //!     [--first N] [--show N] [--list CLASS]
 //! ```
 //!
@@ -12,12 +12,14 @@
 //! `right/undecided`. The exit code is 1 if something right was refuted or something wrong
 //! proved, or if more than 1 % of what is right is undecided.
 
+mod arguments;
 #[path = "../tests/campaign/mod.rs"]
 mod campaign;
 
 use std::collections::BTreeMap;
 use std::process::ExitCode;
 
+use arguments::arguments;
 use campaign::truth::Truth;
 use campaign::{Answer, Case, Disguise, FAMILIES};
 
@@ -89,7 +91,7 @@ impl Options {
 }
 
 fn main() -> ExitCode {
-    let options = match Options::read(std::env::args().skip(1)) {
+    let options = match Options::read(arguments()) {
         Ok(options) => options,
         Err(message) => {
             eprintln!("{message}");

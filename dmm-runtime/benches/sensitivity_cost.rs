@@ -2,7 +2,7 @@
 //! all directions and for one, the gradient of one number by the adjoint, and second derivatives.
 //!
 //! ```sh
-//! cargo run --release -p dmm-runtime --example sensitivity_cost
+//! cargo bench -p dmm-runtime --bench sensitivity_cost
 //! ```
 
 use std::time::Instant;

@@ -1,7 +1,7 @@
 //! Rounding errors of every emitted function before and after optimisation, against 120 digits.
 //!
 //! ```text
-//! cargo run --release -p dmm-compiler --example accuracy [FILE | DIRECTORY]
+//! cargo bench -p dmm-compiler --bench accuracy -- [FILE | DIRECTORY]
 //! ```
 //!
 //! Errors are those of all results at random points, with steps v τ, τ from 1 to 10⁻¹²: median
@@ -10,6 +10,7 @@
 
 #[path = "../tests/accuracy/mod.rs"]
 mod accuracy;
+mod arguments;
 mod declarations;
 
 use std::error::Error;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use accuracy::{Errors, greatest, measure, scheme};
+use arguments::arguments;
 
 /// Points a step size.
 const POINTS: usize = 10;
@@ -34,7 +36,7 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Box<dyn Error>> {
-    let path = std::env::args_os().nth(1).map(PathBuf::from);
+    let path = arguments().next().map(PathBuf::from);
     let path = path.unwrap_or_else(declarations::problems);
     println!(
         "{:<22} {:<14} {:<22} {:>7} | {:^31} | {:^31}",

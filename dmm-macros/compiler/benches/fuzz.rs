@@ -1,7 +1,7 @@
 //! Fuzzes the macro's input: no token stream may panic, hang, or give what is not Rust.
 //!
 //! ```text
-//! cargo run -p dmm-compiler --example fuzz -- --cases 100000 --seed 1
+//! cargo bench --profile dev -p dmm-compiler --bench fuzz -- --cases 100000 --seed 1
 //!     [--first N] [--jobs N] [--save DIRECTORY] [--check FILE] [--show N]
 //! ```
 //!
@@ -10,6 +10,7 @@
 //! printed after it has been made as short as it can be, and kept in the directory of `--save`.
 //! `--check` compiles the declaration in one file, `--show` prints a case. The exit code is 1 if anything failed.
 
+mod arguments;
 #[path = "../tests/support/corpus.rs"]
 mod corpus;
 #[path = "../tests/fuzz/mod.rs"]
@@ -19,10 +20,11 @@ mod fuzz_driver;
 
 use std::process::ExitCode;
 
+use arguments::arguments;
 use fuzz_driver::{Options, run, single, worker};
 
 fn main() -> ExitCode {
-    let options = match Options::read(std::env::args().skip(1)) {
+    let options = match Options::read(arguments()) {
         Ok(options) => options,
         Err(message) => {
             eprintln!("{message}");

@@ -1,7 +1,7 @@
 //! What the compiler proves: a line a conserved quantity of every declaration of the corpus.
 //!
 //! ```text
-//! cargo run -p dmm-compiler --example proof_table
+//! cargo bench --profile dev -p dmm-compiler --bench proof_table
 //! ```
 //!
 //! The systems that hold come first, with the domain that a proof needs; then wrong ones, each

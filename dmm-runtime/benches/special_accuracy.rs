@@ -1,7 +1,7 @@
 //! Prints the errors of `dmm_runtime::special` against arbitrary precision.
 //!
 //! ```text
-//! cargo run --release -p dmm-runtime --example special_accuracy [SAMPLES]
+//! cargo bench -p dmm-runtime --bench special_accuracy -- [SAMPLES]
 //! ```
 
 #[path = "../tests/accuracy/mod.rs"]

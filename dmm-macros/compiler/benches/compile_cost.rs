@@ -2,12 +2,12 @@
 //! stage of the compiler, for every `pws!` in some Rust sources.
 //!
 //! ```text
-//! cargo run -p dmm-compiler --example compile_cost [FILE | DIRECTORY]...
+//! cargo bench --profile dev -p dmm-compiler --bench compile_cost -- [FILE | DIRECTORY]...
 //! ```
 //!
 //! Without arguments, the problems of this repository, and then `cargo check` of them with
 //! everything that they depend on already built. Users' macros run unoptimised, even in release
-//! builds, so the default profile is the one to measure.
+//! builds, so the profile `dev` is the one to measure.
 //!
 //! Operations are those of one evaluation of f^τ, and of f^τ with ∂f^τ/∂x₁ (for a minimal-norm
 //! field, of everything that the runtime's projection is given), in the region that takes the
@@ -15,6 +15,7 @@
 //! operation of weight 1, a division one of weight 4, a square root 6, an elementary function
 //! 20; what depends on parameters alone is computed once a flow and not counted.
 
+mod arguments;
 mod declarations;
 
 use std::error::Error;
@@ -23,6 +24,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
+use arguments::arguments;
 use dmm_compiler::diagnostics::Diagnostics;
 use dmm_compiler::program::optimise::Count;
 use dmm_compiler::program::{Function, Functions, Program, Quantity};
@@ -44,7 +46,7 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Box<dyn Error>> {
-    let mut paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let mut paths: Vec<PathBuf> = arguments().map(PathBuf::from).collect();
     let own_problems = paths.is_empty();
     if own_problems {
         paths.push(declarations::problems());
