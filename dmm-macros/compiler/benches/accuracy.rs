@@ -4,6 +4,8 @@
 //! cargo bench -p dmm-compiler --bench accuracy -- [FILE | DIRECTORY]
 //! ```
 //!
+//! Cargo runs it in the folder of the package, which relative paths begin at.
+//!
 //! Errors are those of all results at random points, with steps v τ, τ from 1 to 10⁻¹²: median
 //! and greatest in ulp of the exact value (where a value cancels, many), and mean and greatest
 //! as parts of the a-priori bound of the operations as they are written.

@@ -5,9 +5,10 @@
 //! cargo bench --profile dev -p dmm-compiler --bench compile_cost -- [FILE | DIRECTORY]...
 //! ```
 //!
-//! Without arguments, the problems of this repository, and then `cargo check` of them with
-//! everything that they depend on already built. Users' macros run unoptimised, even in release
-//! builds, so the profile `dev` is the one to measure.
+//! Cargo runs it in the folder of the package, which relative paths begin at. Without arguments,
+//! the problems of this repository, and then `cargo check` of them with everything that they depend
+//! on already built. Users' macros run unoptimised, even in release builds, so the profile `dev` is
+//! the one to measure.
 //!
 //! Operations are those of one evaluation of f^τ, and of f^τ with ∂f^τ/∂x₁ (for a minimal-norm
 //! field, of everything that the runtime's projection is given), in the region that takes the

@@ -8,7 +8,8 @@
 //! Cases are made from the seed and their number, and compiled in processes of their own, so
 //! that a stack overflow or a hang is found out and the run goes on behind it. What fails is
 //! printed after it has been made as short as it can be, and kept in the directory of `--save`.
-//! `--check` compiles the declaration in one file, `--show` prints a case. The exit code is 1 if anything failed.
+//! `--check` compiles the declaration in one file, `--show` prints a case. Relative paths begin at
+//! the folder of the package, in which cargo runs this. The exit code is 1 if anything failed.
 
 mod arguments;
 #[path = "../tests/support/corpus.rs"]

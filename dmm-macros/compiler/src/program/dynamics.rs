@@ -1,6 +1,7 @@
 //! The functions of a region: its expressions lowered together, and then optimised function by
 //! function; and the recurrences of its solution.
 
+use super::forces::by_velocities;
 use super::function::{Functions, Quantity, Variables};
 use super::inputs::{at_point, over_step, solved};
 use super::lower::Lowered;
@@ -60,14 +61,16 @@ struct Written {
 impl Written {
     /// The operations as they are written.
     fn lower(dag: &mut Dag, lowered: &mut Lowered, scheme: &Scheme, region: usize) -> Self {
+        let states = &scheme.model.state_names();
         let declared = &scheme.model.regions[region];
         let scheme = &scheme.regions[region];
         let psi: Vec<Id> = declared.conserved.iter().map(|one| one.psi).collect();
         let sizes: Vec<Id> = psi.iter().map(|&psi| size(dag, psi)).collect();
+        let field = by_velocities(dag, declared, states);
         let mut lowering = Lowering { dag, lowered };
         let psi = lowering.column(&psi);
         Self {
-            field: Results::Column(lowering.column(&declared.field)),
+            field: Results::Column(lowering.column(&field)),
             jacobian: Results::Matrix(lowering.rows(&scheme.jacobian)),
             multiplier: Results::ColumnAndMatrix(
                 psi.clone(),

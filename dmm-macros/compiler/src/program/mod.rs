@@ -19,6 +19,7 @@
 mod constant;
 mod dynamics;
 mod events;
+mod forces;
 mod function;
 mod guards;
 mod inputs;

@@ -1,9 +1,10 @@
 //! Operations as their recurrences are shortest. A quotient by a power that has roots in it is a
 //! product with a power: u/(v √v) is u v^(−3/2), whose recurrence takes the place of those of the root,
-//! of the product and of the quotient. Factors that are constant in time are brought outside of
-//! products: u (c u) is c u², and a square has half the terms.
+//! of the product and of the quotient. Where products alone take a reciprocal, they are quotients:
+//! u·(1/v) and w·(1/v) are u/v and w/v, without the recurrence of 1/v. Factors that are constant in time
+//! are brought outside of products: u (c u) is c u², and a square has half the terms.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use egg::Language;
 use num_traits::One;
@@ -14,17 +15,20 @@ use crate::program::Lowered;
 /// The roots with such quotients and products.
 pub(in crate::program) fn for_series(lowered: &mut Lowered, roots: &[Id]) -> Vec<Id> {
     let mut image: HashMap<Id, Id> = HashMap::new();
+    let reciprocals = factors_alone(lowered, roots);
     for id in lowered.order(roots, |_| false) {
-        let node = lowered.dag()[id]
-            .clone()
-            .map_children(|child| image[&child]);
+        let own = lowered.dag()[id].clone();
+        let node = own.clone().map_children(|child| image[&child]);
         let new = match (lowered.is_fixed(id), node) {
             (true, _) => id,
             (false, Math::Div([a, b])) => product_with_power(lowered, a, b)
                 .unwrap_or_else(|| lowered.insert(Math::Div([a, b]))),
-            (false, Math::Mul([a, b])) if !lowered.is_fixed(a) && !lowered.is_fixed(b) => {
-                product(lowered, a, b)
-            }
+            (false, Math::Mul([a, b])) if !lowered.is_fixed(a) && !lowered.is_fixed(b) => match own
+            {
+                Math::Mul([_, one]) if reciprocals.contains(&one) => quotient(lowered, a, b),
+                Math::Mul([one, _]) if reciprocals.contains(&one) => quotient(lowered, b, a),
+                _ => product(lowered, a, b),
+            },
             (false, node) => lowered.insert(node),
         };
         image.insert(id, new);
@@ -32,12 +36,51 @@ pub(in crate::program) fn for_series(lowered: &mut Lowered, roots: &[Id]) -> Vec
     roots.iter().map(|root| image[root]).collect()
 }
 
+/// The reciprocals c/v, with c constant in time, that are factors of products with something else
+/// that moves, and nothing else.
+fn factors_alone(lowered: &Lowered, roots: &[Id]) -> BTreeSet<Id> {
+    let moves = |id: Id| !lowered.is_fixed(id);
+    let is_reciprocal = |id: Id| {
+        let Math::Div([c, v]) = lowered.dag()[id] else {
+            return false;
+        };
+        lowered.is_fixed(c) && moves(v) && !is_power_with_roots(lowered, v)
+    };
+    let order = lowered.order(roots, |_| false);
+    let mut found: BTreeSet<Id> = order
+        .iter()
+        .copied()
+        .filter(|&id| is_reciprocal(id))
+        .collect();
+    roots.iter().for_each(|root| _ = found.remove(root));
+    for id in order {
+        let node = &lowered.dag()[id];
+        let both = matches!(*node, Math::Mul([a, b]) if found.contains(&a) && found.contains(&b));
+        let is_product = matches!(*node, Math::Mul([a, b]) if moves(a) && moves(b)) && !both;
+        if !is_product {
+            node.for_each(|child| _ = found.remove(&child));
+        }
+    }
+    found
+}
+
+/// a (c/v) as a quotient with factors that are constant in time outside, where `reciprocal` is c/v.
+fn quotient(lowered: &mut Lowered, a: Id, reciprocal: Id) -> Id {
+    let Math::Div([c, v]) = lowered.dag()[reciprocal] else {
+        return product(lowered, a, reciprocal);
+    };
+    let (outer, a) = without_fixed(lowered, a);
+    let quotient = lowered.insert(Math::Div([a, v]));
+    let is_one = lowered.dag().as_constant(c).is_some_and(One::is_one);
+    let factors = [(!is_one).then_some(c), outer].into_iter().flatten();
+    factors.fold(quotient, |quotient, c| {
+        lowered.insert(Math::Mul([c, quotient]))
+    })
+}
+
 /// ab, with factors that are constant in time outside.
 fn product(lowered: &mut Lowered, a: Id, b: Id) -> Id {
-    let [(outer, a), (inner, b)] = [a, b].map(|id| match lowered.dag()[id] {
-        Math::Mul([c, u]) | Math::Mul([u, c]) if lowered.is_fixed(c) => (Some(c), u),
-        _ => (None, id),
-    });
+    let [(outer, a), (inner, b)] = [a, b].map(|id| without_fixed(lowered, id));
     let product = lowered.insert(Math::Mul([a, b]));
     let factors = [inner, outer].into_iter().flatten();
     factors.fold(product, |product, c| {
@@ -45,13 +88,20 @@ fn product(lowered: &mut Lowered, a: Id, b: Id) -> Id {
     })
 }
 
+/// A factor of a node that is constant in time, and the node without it.
+fn without_fixed(lowered: &Lowered, id: Id) -> (Option<Id>, Id) {
+    match lowered.dag()[id] {
+        Math::Mul([c, u]) | Math::Mul([u, c]) if lowered.is_fixed(c) => (Some(c), u),
+        _ => (None, id),
+    }
+}
+
 /// a v^(−p), where b = v^p with p = 3/2, 5/2, …
 fn product_with_power(lowered: &mut Lowered, a: Id, b: Id) -> Option<Id> {
-    let (base, exponent) = power(lowered, b);
-    let half = |numerator: i64| Rational::new(numerator.into(), 2.into());
-    if exponent.is_integer() || exponent < half(3) || lowered.is_fixed(base) {
+    if !is_power_with_roots(lowered, b) {
         return None;
     }
+    let (base, exponent) = power(lowered, b);
     let exponent = lowered.insert(Math::Constant(-exponent));
     let power = lowered.insert(Math::Pow([base, exponent]));
     let is_one = lowered.dag().as_constant(a).is_some_and(One::is_one);
@@ -60,6 +110,13 @@ fn product_with_power(lowered: &mut Lowered, a: Id, b: Id) -> Option<Id> {
     } else {
         lowered.insert(Math::Mul([a, power]))
     })
+}
+
+/// Whether a node is v^p with p = 3/2, 5/2, …
+fn is_power_with_roots(lowered: &Lowered, id: Id) -> bool {
+    let (base, exponent) = power(lowered, id);
+    let least = Rational::new(3.into(), 2.into());
+    !exponent.is_integer() && exponent >= least && !lowered.is_fixed(base)
 }
 
 /// Base and exponent of a node as a power.
@@ -113,6 +170,23 @@ mod tests {
         assert_eq!(exponent, Some(&Rational::new((-3).into(), 2.into())));
         // a root alone has a recurrence as short
         assert_eq!(quotient, roots[1]);
+    }
+
+    #[test]
+    fn products_with_a_reciprocal_are_quotients() {
+        let mut lowered = Lowered::new(vec![Name::new("c")]);
+        let [c, x, y, v] =
+            ["c", "x", "y", "v"].map(|name| lowered.insert(Math::Variable(Name::new(name))));
+        let reciprocal = lowered.insert(Math::Div([c, v]));
+        let products = [x, y].map(|factor| lowered.insert(Math::Mul([factor, reciprocal])));
+        let quotients = [x, y].map(|factor| {
+            let quotient = lowered.insert(Math::Div([factor, v]));
+            lowered.insert(Math::Mul([c, quotient]))
+        });
+        assert_eq!(for_series(&mut lowered, &products), quotients);
+        // where it is needed anyway, a product is as short
+        let roots = [products[0], reciprocal];
+        assert_eq!(for_series(&mut lowered, &roots), roots);
     }
 
     #[test]
