@@ -1,7 +1,7 @@
 //! Conservation on every problem, and the work that it takes.
 //!
 //! The long runs (a million steps each) are `pws conserve --scheme symmetric`; here are ten thousand
-//! steps of each (of the largest chains, whose steps cost most, five hundred), with the same
+//! steps of each (of the largest chains, whose steps cost most, two thousand), with the same
 //! bounds.
 
 use std::ops::ControlFlow;
@@ -12,7 +12,7 @@ use dmm_problems::registry::{all, find};
 
 const STEPS: f64 = 10_000.0;
 /// Of systems of more than 16 states.
-const STEPS_OF_LARGE: f64 = 500.0;
+const STEPS_OF_LARGE: f64 = 2_000.0;
 
 fn conservation(name: &str, level_correction: bool, step_size: f64) -> Conservation {
     let problem = find(name).unwrap();

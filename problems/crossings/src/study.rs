@@ -31,7 +31,7 @@ type Runs = fn(usize) -> Tallies;
 /// The study: the families side by side.
 pub(crate) fn study(extent: Extent, observer: &mut dyn Observe) {
     // of 14 families, of 4 systems each
-    let groups = extent.of(500, 3);
+    let groups = extent.of(500, 5);
     let families: [(&'static str, Runs); 14] = [
         family::<Polynomial, 2>(),
         family::<Rational, 2>(),
