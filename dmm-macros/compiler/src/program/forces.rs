@@ -25,10 +25,12 @@ const MOST_PAIRS: usize = 3;
 
 /// f with its forces by its velocities, if that takes fewer operations.
 pub(super) fn by_velocities(dag: &mut Dag, region: &Region, states: &[Name]) -> Vec<Id> {
-    let forces = Forces::new(dag, region, states);
-    let Some(forces) = forces else {
-        return region.field.clone();
-    };
+    shortened(dag, region, states).unwrap_or_else(|| region.field.clone())
+}
+
+/// The same; nothing where it is not shorter, or not proved to be f.
+fn shortened(dag: &mut Dag, region: &Region, states: &[Name]) -> Option<Vec<Id>> {
+    let forces = Forces::new(dag, region, states)?;
     let mut field = region.field.clone();
     for (k, &(_, p)) in region.canonical.iter().enumerate() {
         field[p] = forces.force(dag, k);
@@ -39,11 +41,8 @@ pub(super) fn by_velocities(dag: &mut Dag, region: &Region, states: &[Name]) -> 
         decide_zero(dag, difference) == Verdict::Proved
     };
     let is_shorter = after.weighted < before.weighted;
-    if is_shorter && region.canonical.iter().all(|&(_, p)| is_same(dag, p)) {
-        field
-    } else {
-        region.field.clone()
-    }
+    let is_field = is_shorter && region.canonical.iter().all(|&(_, p)| is_same(dag, p));
+    is_field.then_some(field)
 }
 
 /// What the forces are made of.
@@ -146,7 +145,7 @@ mod tests {
     use crate::{check, syntax};
 
     /// A system, and its field by its velocities.
-    fn shortened(body: &str) -> (Model, Vec<Id>) {
+    fn of_system(body: &str) -> (Model, Vec<Id>) {
         let mut diagnostics = Diagnostics::new();
         let declaration = format!("system Own {{ {body} }}").parse().unwrap();
         let parsed = syntax::parse(declaration, &mut diagnostics).unwrap();
@@ -171,7 +170,7 @@ mod tests {
                 2,
             ),
         ] {
-            let (model, field) = shortened(body);
+            let (model, field) = of_system(body);
             let (velocities, forces) = field.split_at(pairs);
             assert_eq!(velocities, &model.regions[0].field[..pairs]);
             for &force in forces {
@@ -193,7 +192,7 @@ mod tests {
             // a relativistic energy is no square
             "state q, p; hamiltonian H = sqrt(1 + p^2/(1 + q^2)) in (q, p);",
         ] {
-            let (model, field) = shortened(body);
+            let (model, field) = of_system(body);
             assert_eq!(field, model.regions[0].field, "{body}");
         }
     }

@@ -72,20 +72,20 @@ fn quotient(lowered: &mut Lowered, a: Id, reciprocal: Id) -> Id {
     let (outer, a) = without_fixed(lowered, a);
     let quotient = lowered.insert(Math::Div([a, v]));
     let is_one = lowered.dag().as_constant(c).is_some_and(One::is_one);
-    let factors = [(!is_one).then_some(c), outer].into_iter().flatten();
-    factors.fold(quotient, |quotient, c| {
-        lowered.insert(Math::Mul([c, quotient]))
-    })
+    with_factors(lowered, quotient, [(!is_one).then_some(c), outer])
 }
 
 /// ab, with factors that are constant in time outside.
 fn product(lowered: &mut Lowered, a: Id, b: Id) -> Id {
     let [(outer, a), (inner, b)] = [a, b].map(|id| without_fixed(lowered, id));
     let product = lowered.insert(Math::Mul([a, b]));
-    let factors = [inner, outer].into_iter().flatten();
-    factors.fold(product, |product, c| {
-        lowered.insert(Math::Mul([c, product]))
-    })
+    with_factors(lowered, product, [inner, outer])
+}
+
+/// A node with factors that are constant in time outside, one after the other.
+fn with_factors(lowered: &mut Lowered, node: Id, factors: [Option<Id>; 2]) -> Id {
+    let factors = factors.into_iter().flatten();
+    factors.fold(node, |node, c| lowered.insert(Math::Mul([c, node])))
 }
 
 /// A factor of a node that is constant in time, and the node without it.
