@@ -5,7 +5,9 @@ runtime parameters, which an event sets. That is the fastest way to tell heyoka 
 """
 
 import ast
+import keyword
 import math
+import re
 
 import heyoka as hy
 
@@ -155,8 +157,14 @@ class Formulas:
 
 
 def parse(text):
-    """The tree of a formula: Python's, with another sign for powers."""
-    return ast.parse(text.replace("^", "**"), mode="eval").body
+    """The tree of a formula: Python's, with another sign for powers, and names that are not Python's."""
+    mark = "__name"
+    name = lambda word: word[0] + mark * keyword.iskeyword(word[0])
+    tree = ast.parse(re.sub(r"\w+", name, text.replace("^", "**")), mode="eval").body
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            node.id = node.id.removesuffix(mark)
+    return tree
 
 
 def terms(node, sign=1.0):
