@@ -52,18 +52,32 @@ impl Accumulation {
     }
 
     /// Counts a transition.
+    #[inline]
     pub(crate) fn count<Sys: System<N>, const N: usize>(
+        &mut self,
+        system: &Sys,
+        place: (usize, Sys::Region),
+        time: Time,
+        x: &Vector<f64, N>,
+    ) -> Result<(), Error> {
+        self.last[self.count as usize % LAST] = time;
+        self.count += 1;
+        if self.count.is_multiple_of(TOGETHER) {
+            self.check(system, place, time, x)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Refuses transitions that accumulate.
+    #[cold]
+    fn check<Sys: System<N>, const N: usize>(
         &mut self,
         system: &Sys,
         (interface, region): (usize, Sys::Region),
         time: Time,
         x: &Vector<f64, N>,
     ) -> Result<(), Error> {
-        self.last[self.count as usize % LAST] = time;
-        self.count += 1;
-        if !self.count.is_multiple_of(TOGETHER) {
-            return Ok(());
-        }
         let within = time.since(self.first);
         if within <= f64::EPSILON * time.since(self.start) {
             let kind = ErrorKind::Zeno {

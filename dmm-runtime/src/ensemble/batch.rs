@@ -8,7 +8,7 @@
 //! the scalar method.
 
 use super::kernel::{Job, Kernel, LONGEST, ORDER, Settings};
-use super::register::{Leave, Register, WIDTH, Wide};
+use super::register::{Leave, Reached, Register, WIDTH, Wide};
 use super::trajectory::Trajectory;
 use super::{Member, Outcome};
 use crate::arithmetic::Scalar;
@@ -214,14 +214,15 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                     job,
                 },
             });
-            let crossed = self.register.crossed();
-            if let Some(interface) = crossed
+            let reached = self.register.reached();
+            if let Some(Reached { interface, by_all }) = reached
+                && by_all
                 && let Some(next) = self.enter(region, interface)
             {
                 (region, job) = (next, Job::Enter(Some(interface)));
                 continue;
             }
-            let refills = crossed.is_none() && !matches!(job, Job::Cross(_));
+            let refills = reached.is_none() && !matches!(job, Job::Cross(_));
             let mut used = 0;
             for lane in 0..WIDTH {
                 if self.register.is_idle(lane) {
@@ -288,15 +289,11 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
         }
     }
 
-    /// If all lanes have come to the interface they stay together: the region that they enter.
+    /// All lanes have come to the interface and stay together: the region that they enter.
     fn enter(&mut self, region: usize, interface: usize) -> Option<usize> {
         let other = self.neighbours[region * self.queues.interfaces + interface];
         let index = other?.0;
-        let crossed = Leave::Crossed(interface);
-        let stays = |lane| self.register.is_idle(lane) || self.register.leave(lane) == crossed;
-        if !(0..WIDTH).all(stays) {
-            return None;
-        }
+        let mut stay = false;
         for lane in 0..WIDTH {
             if self.register.is_idle(lane) {
                 continue;
@@ -309,12 +306,11 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                 self.register.store(lane, trajectory);
                 self.register.set_idle(lane, true);
                 self.finish(number, Err(error));
+            } else {
+                stay = true;
             }
         }
-        if (0..WIDTH).all(|lane| self.register.is_idle(lane)) {
-            return None;
-        }
-        Some(index)
+        stay.then_some(index)
     }
 
     /// A trajectory has come to an interface.

@@ -5,9 +5,13 @@ use crate::arithmetic::masked::{Mask, Masked};
 use crate::arithmetic::{Scalar, State, Time};
 use crate::contract::Vector;
 
-/// Trajectories that are stepped together: two vectors of four doubles, of which one is computed
-/// with while the other waits, or one of eight where the processor has such.
-pub(super) const WIDTH: usize = 8;
+/// Trajectories that are stepped together: two vectors, of which one is computed with while the other waits.
+/// Vectors have eight doubles in a build for a processor that has such, and four otherwise.
+pub(super) const WIDTH: usize = if cfg!(target_feature = "avx512f") {
+    16
+} else {
+    8
+};
 
 /// A truth value of each trajectory.
 pub(super) type WideMask = LaneMask<WIDTH>;
@@ -28,6 +32,14 @@ pub(super) enum Leave {
     Crossed(usize),
     /// Its step needs a closer look, or cannot be made.
     Hard,
+}
+
+/// An interface that lanes have moved to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reached {
+    pub(super) interface: usize,
+    /// Whether all lanes in use are on it.
+    pub(super) by_all: bool,
 }
 
 impl Leave {
@@ -65,6 +77,8 @@ pub(super) struct Register<const N: usize> {
     leave: Wide,
     /// The interface that is crossed.
     interface: Wide,
+    /// The interface that lanes have just moved to.
+    reached: Option<Reached>,
     /// The trajectories.
     pub(super) slots: [usize; WIDTH],
 }
@@ -87,6 +101,7 @@ impl<const N: usize> Register<N> {
             idle: zero,
             leave: zero,
             interface: zero,
+            reached: None,
             slots: [0; WIDTH],
         }
     }
@@ -129,6 +144,7 @@ impl<const N: usize> Register<N> {
         let leave = hard.select(mark(Leave::HARD), leave);
         self.leave = leave;
         self.interface = interface;
+        self.reached = None;
         let used = mark(1.0) - self.idle;
         let marked = (leave * leave * used).0;
         marked.iter().sum::<f64>() != 0.0
@@ -152,14 +168,15 @@ impl<const N: usize> Register<N> {
         let mark = Wide::from_f64;
         self.interface = mark(interface as f64);
         self.leave = crossed.select(mark(Leave::CROSSED), mark(Leave::HARD));
+        self.reached = Some(Reached {
+            interface,
+            by_all: crossed.all_of(self.used()),
+        });
     }
 
-    /// The interface that the first lane in use has come to.
-    pub(super) fn crossed(&self) -> Option<usize> {
-        match self.leave(self.first_used()?) {
-            Leave::Crossed(interface) => Some(interface),
-            _ => None,
-        }
+    /// The interface that lanes have just moved to.
+    pub(super) fn reached(&self) -> Option<Reached> {
+        self.reached
     }
 
     /// Why a lane in use needs attention.

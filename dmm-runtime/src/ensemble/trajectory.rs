@@ -91,6 +91,7 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     /// Has come to an interface, on the other side of which there is a region: its index.
+    #[inline]
     pub(super) fn cross(
         &mut self,
         interface: usize,
@@ -99,7 +100,8 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         let (time, x) = (self.time, &self.state.x);
         self.accumulation
             .count(&self.system, (interface, self.region), time, x)?;
-        self.active = Active::new(Some(interface));
+        self.active.clear();
+        self.active.insert(interface);
         self.crossing = Some(Crossing {
             from: self.region,
             rate_from: self.rate,
@@ -118,12 +120,13 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
     }
 
     /// The region entered has taken it.
+    #[inline]
     pub(super) fn entered(&mut self) {
         if self.crossing.is_some() {
             TransitionKind::Crossed.count(&mut self.statistics);
         }
         self.crossing = None;
-        self.active = Active::default();
+        self.active.clear();
     }
 
     /// Judges the crossing that brought it here, if that is still to be done.

@@ -5,6 +5,7 @@ use crate::method::Statistics;
 
 impl TransitionKind {
     /// What the kind is called, and its counter. All else about kinds follows from here.
+    #[inline(always)]
     fn entry(self) -> (&'static str, fn(&mut Statistics) -> &mut u64) {
         match self {
             Self::Crossed => ("crossed", |statistics| &mut statistics.crossed),
@@ -28,6 +29,7 @@ impl TransitionKind {
     }
 
     /// Counts a transition of the kind.
+    #[inline]
     pub(crate) fn count(self, statistics: &mut Statistics) {
         statistics.transitions += 1;
         *self.entry().1(statistics) += 1;

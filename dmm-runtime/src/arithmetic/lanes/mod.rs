@@ -1,5 +1,15 @@
 //! Several scalars at once, the lanes of a vector register.
 
+#[cfg_attr(
+    all(target_feature = "avx2", target_feature = "fma"),
+    path = "vectors.rs"
+)]
+#[cfg_attr(
+    not(all(target_feature = "avx2", target_feature = "fma")),
+    path = "arrays.rs"
+)]
+mod parts;
+
 use std::array::from_fn;
 use std::cmp::Ordering;
 use std::hint::black_box;
@@ -9,16 +19,19 @@ use pulp::NullaryFnOnce;
 
 use super::Scalar;
 use super::masked::{Mask, Masked};
+use parts::{Bits, in_lanes};
 
 /// L doubles that are computed with together, each in a lane of its own.
 ///
-/// It is an array, whose operations the compiler turns into instructions for vector registers
-/// where the function that they are inlined into allows them. [`Scalar::fused`] is one
-/// instruction there, and slow elsewhere.
+/// A build for a processor that has vectors of four doubles and the fused operation computes with the
+/// vectors of [`wide`] (`vectors`). Any other has arrays (`arrays`): what [`wide`] computes with is decided
+/// when it is compiled, while the compiler turns operations of arrays into instructions for vector
+/// registers where the function that they are inlined into allows them. [`Scalar::fused`] is one instruction
+/// there, and slow elsewhere.
 ///
 /// A comparison holds if it holds in every lane.
 #[derive(Clone, Copy, PartialEq, Debug)]
-#[repr(align(32))]
+#[repr(align(64))]
 pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
 
 impl<const L: usize> Lanes<L> {
@@ -65,48 +78,39 @@ impl Vectorised {
     }
 }
 
-/// All bits or none.
-#[inline(always)]
-fn every_bit(set: bool) -> u64 {
-    if set { u64::MAX } else { 0 }
-}
-
 /// A truth value for each lane: all bits or none, as vector registers have it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct LaneMask<const L: usize>([u64; L]);
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LaneMask<const L: usize>([Bits; L]);
 
 impl<const L: usize> Mask<Lanes<L>> for LaneMask<L> {
     #[inline(always)]
     fn all_are(set: bool) -> Self {
-        Self([every_bit(set); L])
+        Self([parts::bits(set); L])
     }
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        Self(from_fn(|i| self.0[i] & other.0[i]))
+        Self(in_lanes!(a = self.0, b = other.0; a & b))
     }
 
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        Self(from_fn(|i| self.0[i] | other.0[i]))
+        Self(in_lanes!(a = self.0, b = other.0; a | b))
     }
 
     #[inline(always)]
     fn not(self) -> Self {
-        Self(from_fn(|i| !self.0[i]))
+        Self(in_lanes!(a = self.0; !a))
     }
 
     #[inline(always)]
     fn any(self) -> bool {
-        self.0.iter().fold(0, |any, lane| any | lane) != 0
+        parts::any(&self.0)
     }
 
     #[inline(always)]
     fn select(self, one: Lanes<L>, other: Lanes<L>) -> Lanes<L> {
-        Lanes::each(|i| {
-            let (one, other) = (one.0[i].to_bits(), other.0[i].to_bits());
-            f64::from_bits((one & self.0[i]) | (other & !self.0[i]))
-        })
+        Lanes(in_lanes!(mask = self.0, a = one.0, b = other.0; parts::select(mask, a, b)))
     }
 }
 
@@ -121,34 +125,22 @@ impl<const L: usize> Masked for Lanes<L> {
 
     #[inline(always)]
     fn above(self, b: Self) -> LaneMask<L> {
-        LaneMask(from_fn(|i| every_bit(self.0[i] > b.0[i])))
+        LaneMask(in_lanes!(a = self.0, b = b.0; parts::above(a, b)))
     }
 
     #[inline(always)]
     fn equals(self, b: Self) -> LaneMask<L> {
-        LaneMask(from_fn(|i| every_bit(self.0[i] == b.0[i])))
+        LaneMask(in_lanes!(a = self.0, b = b.0; parts::equals(a, b)))
     }
 
     #[inline(always)]
     fn max(self, b: Self) -> Self {
-        Self::each(|i| {
-            if self.0[i] > b.0[i] {
-                self.0[i]
-            } else {
-                b.0[i]
-            }
-        })
+        Self(in_lanes!(a = self.0, b = b.0; parts::larger(a, b)))
     }
 
     #[inline(always)]
     fn min(self, b: Self) -> Self {
-        Self::each(|i| {
-            if self.0[i] < b.0[i] {
-                self.0[i]
-            } else {
-                b.0[i]
-            }
-        })
+        Self(in_lanes!(a = self.0, b = b.0; parts::smaller(a, b)))
     }
 
     #[inline(always)]
@@ -181,7 +173,7 @@ impl<const L: usize> Neg for Lanes<L> {
 
     #[inline(always)]
     fn neg(self) -> Self {
-        Self::each(|i| -self.0[i])
+        Self(in_lanes!(a = self.0; -a))
     }
 }
 
@@ -193,7 +185,7 @@ macro_rules! operators {
 
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                Self::each(|i| self.0[i] $symbol other.0[i])
+                Self(in_lanes!(a = self.0, b = other.0; a $symbol b))
             }
         }
 
@@ -257,7 +249,7 @@ impl<const L: usize> Scalar for Lanes<L> {
 
     #[inline(always)]
     fn fused(self, b: Self, c: Self) -> Self {
-        Self::each(|i| self.0[i].mul_add(b.0[i], c.0[i]))
+        Self(in_lanes!(a = self.0, b = b.0, c = c.0; a.mul_add(b, c)))
     }
 
     /// By way of memory.
@@ -271,8 +263,18 @@ impl<const L: usize> Scalar for Lanes<L> {
         Self::each(|i| Scalar::powi(self.0[i], n))
     }
 
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(in_lanes!(a = self.0; a.abs()))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(in_lanes!(a = self.0; a.sqrt()))
+    }
+
     by_lane! {
-        abs() sqrt() exp() ln() sin() cos() tan() sinh() cosh() tanh() asin() acos() atan()
+        exp() ln() sin() cos() tan() sinh() cosh() tanh() asin() acos() atan()
         powf(v) exp_product(b) sinc() sinc_prime() sinhc() sinhc_prime() ln_dd(b) ln_dd_prime(b)
         asin_dd(b) asin_dd_prime(b) atan_dd(b) atan_dd_prime(b)
     }
