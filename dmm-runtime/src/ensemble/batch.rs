@@ -300,9 +300,9 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
             }
             let number = self.register.slots[lane];
             let trajectory = &mut self.trajectories[number];
-            self.register.pass_on(lane, trajectory);
+            let now = self.register.pass_on(lane, trajectory);
             trajectory.entered();
-            if let Err(error) = trajectory.cross(interface, other) {
+            if let Err(error) = trajectory.cross(now, interface, other) {
                 self.register.store(lane, trajectory);
                 self.register.set_idle(lane, true);
                 self.finish(number, Err(error));
@@ -316,10 +316,8 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
     /// A trajectory has come to an interface.
     fn cross(&mut self, number: usize, region: usize, interface: usize) {
         let trajectory = &mut self.trajectories[number];
-        match trajectory.cross(
-            interface,
-            self.neighbours[region * self.queues.interfaces + interface],
-        ) {
+        let other = self.neighbours[region * self.queues.interfaces + interface];
+        match trajectory.cross(trajectory.time, interface, other) {
             Ok(_) => self.place(number),
             Err(error) => self.finish(number, Err(error)),
         }

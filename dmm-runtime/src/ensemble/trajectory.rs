@@ -90,16 +90,17 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         }
     }
 
-    /// Has come to an interface, on the other side of which there is a region: its index.
+    /// Has come to an interface now, on the other side of which there is a region: its index.
     #[inline]
     pub(super) fn cross(
         &mut self,
+        now: Time,
         interface: usize,
         other: Option<(usize, Sys::Region)>,
     ) -> Result<usize, Error> {
-        let (time, x) = (self.time, &self.state.x);
+        let place = (interface, self.region);
         self.accumulation
-            .count(&self.system, (interface, self.region), time, x)?;
+            .count(&self.system, place, now, &self.state.x)?;
         self.active.clear();
         self.active.insert(interface);
         self.crossing = Some(Crossing {
@@ -202,14 +203,23 @@ impl<const N: usize> Register<N> {
         self.steps.0[lane] = 0.0;
     }
 
-    /// Tells a trajectory of the crossing in its lane, where it stays.
+    /// Tells a trajectory of the crossing in its lane, where it stays, and returns the time.
     #[inline]
-    pub(super) fn pass_on<Sys: System<N>>(&mut self, lane: usize, to: &mut Trajectory<Sys, N>) {
-        to.time.value = self.time.value.0[lane];
+    pub(super) fn pass_on<Sys: System<N>>(
+        &mut self,
+        lane: usize,
+        to: &mut Trajectory<Sys, N>,
+    ) -> Time {
+        let time = Time {
+            value: self.time.value.0[lane],
+            remainder: self.time.remainder.0[lane],
+        };
+        to.time = time;
         to.tau = self.tau.0[lane];
         to.rate = self.rate.0[lane];
         to.statistics.steps += self.steps.0[lane] as u64;
         self.steps.0[lane] = 0.0;
+        time
     }
 
     /// Takes a trajectory out of a lane, and tells whether it has moved.
