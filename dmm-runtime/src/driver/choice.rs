@@ -29,10 +29,11 @@ impl<Sys: System<N>, const N: usize> Around<'_, Sys, N> {
     /// None, or several.
     pub(super) fn entered(&self) -> Result<(Sys::Region, Active), Error> {
         let mut sides = self.sides.clone();
-        let groups = if self.on.len() <= MOST_AT_ONCE {
-            vec![self.on.clone()]
-        } else {
-            self.groups()
+        let groups = match self.on.len() {
+            // away from all interfaces there is nothing to choose
+            0 => Vec::new(),
+            1..=MOST_AT_ONCE => vec![self.on.clone()],
+            _ => self.groups(),
         };
         for group in &groups {
             self.choose(group, &mut sides)?;
