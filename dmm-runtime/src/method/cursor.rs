@@ -62,7 +62,6 @@ impl Active {
     }
 
     /// The only guard, or none; an error where there are several.
-    #[inline]
     pub fn single(&self) -> Result<Option<usize>, Several> {
         match &self.others[..] {
             [] => Ok(self.first),
@@ -71,7 +70,6 @@ impl Active {
     }
 
     /// Adds a guard.
-    #[inline]
     pub fn insert(&mut self, guard: usize) {
         if self.first.is_none() {
             self.first = Some(guard);
