@@ -157,7 +157,7 @@ class Formulas:
 
 
 def parse(text):
-    """The tree of a formula: Python's, with another sign for powers, and names that are not Python's."""
+    """The tree of a formula: Python's, but for the sign of powers, and Python's words may be names."""
     mark = "__name"
     name = lambda word: word[0] + mark * keyword.iskeyword(word[0])
     tree = ast.parse(re.sub(r"\w+", name, text.replace("^", "**")), mode="eval").body

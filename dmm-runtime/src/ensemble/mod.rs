@@ -79,8 +79,8 @@ pub type Outcome<R, const N: usize> = Result<End<R, N>, Halted<R, N>>;
 /// registers, each with steps and transitions of its own, where the processor has what that takes
 /// (x86-64 with AVX2 and FMA, aarch64; found out when the program runs). A build for the processor it runs on
 /// (`-C target-cpu=native`) integrates 1.1 to 1.4 times as many in the same time with vectors of four doubles;
-/// with vectors of eight (AVX-512) it steps sixteen at once, and integrates 1.5 to 2.7 times as many. They are of order 18 at
-/// every tolerance, by the code of a single trajectory: where that order is [`Taylor`]'s too, from
+/// with vectors of eight (AVX-512) it steps sixteen at once, and integrates 1.5 to 2.7 times as many.
+/// They are of order 18 at every tolerance, by the code of a single trajectory: where that order is [`Taylor`]'s too, from
 /// 2·10⁻¹² up to 6·10⁻⁸, and the program is compiled for fused operations, results are those of an
 /// [`Integrator`] to the last bit, but for rare steps next to an interface. Otherwise they are as
 /// accurate. The other schemes, and systems with a [`Condition`](crate::Condition), are integrated

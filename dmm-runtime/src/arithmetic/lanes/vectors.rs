@@ -12,8 +12,8 @@ pub(super) fn bits(set: bool) -> Bits {
     f64::from_bits(if set { u64::MAX } else { 0 })
 }
 
-/// What an expression gives in every lane of its arguments, whose number is a multiple of eight. It is a
-/// closure that does it: inlined where nothing is optimised, its variables would fill the stack.
+/// What an expression gives in every lane of its arguments, whose number, the caller's L, is a multiple of
+/// eight. It is a closure that does it: inlined where nothing is optimised, its variables would fill the stack.
 macro_rules! in_lanes {
     ($($name:ident = $of:expr),*; $value:expr) => {{
         let lanes = |mut lanes: [f64; L]| {
