@@ -4,6 +4,7 @@
 //! leave the range of doubles; see [`super::radius`].
 
 use std::marker::PhantomData;
+use std::sync::atomic::{Ordering, compiler_fence};
 
 use super::polynomial::increment;
 use crate::arithmetic::Scalar;
@@ -43,6 +44,11 @@ impl<S: Scalar, F: Dynamics<S, N, M>, const N: usize, const M: usize, const P: u
 {
     #[inline(always)]
     fn advance<K: Order>(&mut self, k: K) {
+        // Consecutive coefficients lie side by side, and LLVM would join their recurrences in vectors,
+        // which wait for the later one. It joins no stores across a fence, which is no instruction.
+        if K::IS_FIXED && const { size_of::<S>() == size_of::<f64>() } {
+            compiler_fence(Ordering::Release);
+        }
         self.dynamics.advance(k, self.t, self.series);
     }
 

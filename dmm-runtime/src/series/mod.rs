@@ -106,20 +106,6 @@ pub fn next_step<S: Scalar, K: Order>(k: K) -> S {
     S::from_f64(k.unit() * INVERSE[k.get() + 2])
 }
 
-/// u·s, for coefficient k of a component.
-///
-/// Those of odd order by a fused operation: coefficients of consecutive orders are stored side by
-/// side, and LLVM would otherwise join their recurrences, each of which waits for those before
-/// it, in vectors, whose shuffles make the chain a fifth longer.
-#[inline(always)]
-pub fn scaled<S: Arithmetic, K: Order>(k: K, u: S, s: S) -> S {
-    if !K::IS_FIXED || k.get().is_multiple_of(2) {
-        u * s
-    } else {
-        u.times_plus(s, S::of(0.0))
-    }
-}
-
 /// Coefficient k of u + c.
 #[inline(always)]
 pub fn plus<S: Arithmetic, K: Order>(k: K, u: S, c: S) -> S {

@@ -115,10 +115,7 @@ fn recurrences_side_by_side_are_those_of_each() {
         assert_eq!(power_from(k, f, g, f0, g0, [s, m]).0, each(&power));
         assert_eq!(plus(k, f, -g).0, each(&|i| plus(k, u[i], -v[i])));
         assert_eq!(derivative(k, f).0, each(&|i| derivative(k, u[i])));
-        assert_eq!(
-            scaled(k, f - g, s).0,
-            each(&|i| scaled(k, u[i] - v[i], sum[i]))
-        );
+        assert_eq!(((f - g) * s).0, each(&|i| (u[i] - v[i]) * sum[i]));
     }
 }
 

@@ -358,7 +358,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
         };
         match multiple {
             Multiple::Constant(c) => series::constant(k, self.fixed(*c) * scale),
-            Multiple::Node(u) => series::scaled(k, self.value(*u), scale),
+            Multiple::Node(u) => self.value(*u) * scale,
             Multiple::Times(multiplier, of) => within(of, self.multiplied(*multiplier, scale)),
             Multiple::Shifted {
                 is_negative,
@@ -371,7 +371,7 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
             }
             Multiple::Square(of) => {
                 let half = series::half_square(k, self.array(*of));
-                series::scaled(k, half, S::from_f64(2.0) * scale)
+                half * (S::from_f64(2.0) * scale)
             }
         }
     }

@@ -6,7 +6,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::vectors::Lanes;
-use super::writer::{Writer, minus};
+use super::writer::{Writer, minus, product};
 use crate::algebra::Id;
 use crate::program::series::{Factor, LANES, Scaled};
 
@@ -39,7 +39,7 @@ impl Writer<'_, '_> {
         let lanes = array::from_fn(|lane| scaled[lane % scaled.len()].0);
         let scale = quote!(dmm::series::Four::all(#scale));
         let (u, scale) = self.of_vector(lanes, scale)?;
-        let value = Self::call("scaled", &[u, scale]);
+        let value = product(&u, &scale);
         Some(self.elements(&value, scaled.len()))
     }
 

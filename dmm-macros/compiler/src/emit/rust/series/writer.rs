@@ -155,7 +155,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             }
             Scaled::Node(id) => {
                 let value = self.value(*id);
-                Self::call("scaled", &[value, scale])
+                product(&value, &scale)
             }
             Scaled::Multiple(factor, of) => {
                 let scale = self.multiplied(*factor, &scale);
@@ -174,7 +174,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             Scaled::Square { node, of } => {
                 let (half, scalar) = (self.half(*node, *of), self.scope.scalar);
                 let scale = product(&quote!(#scalar::from_f64(2.0)), &scale);
-                Self::call("scaled", &[quote!(#half), scale])
+                product(&quote!(#half), &scale)
             }
         }
     }
