@@ -10,6 +10,10 @@
 //! of the entry. A point that is shown or met, and one that was far from the level, is moved until
 //! what is left is a rounding error.
 //!
+//! Where no interface bounds a region, two steps are made without a correction after one whose
+//! displacement was within the tolerance of a step; what is shown is on the level, and the end time too.
+//! A step that meets an interface starts on the level, as what is off it would move the crossing.
+//!
 //! Where ψ has little slope the rounding error of ψ, and not r, would be what moves the state.
 //! There r is evaluated in pairs of doubles. Where ψ has no slope to speak of even r must not be
 //! amplified: there, for one quantity δx = −WΛᵀ r/(ΛWΛᵀ + D) with D = (σ·|terms of ψ|/|x|)². Of

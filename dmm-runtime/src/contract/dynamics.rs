@@ -83,6 +83,12 @@ pub trait Dynamics<S: Scalar, const N: usize, const M: usize>: Clone {
         self.guards().sides()
     }
 
+    /// Whether there are any.
+    #[inline(always)]
+    fn is_bounded(&self) -> bool {
+        <Self::Guards as Guards<S, N>>::MAY_END && !self.sides().is_empty()
+    }
+
     /// dg/dt = ∂ₜg + ∇g·f of a guard at (t, x).
     #[inline]
     fn rate(&self, guard: usize, t: S, x: &Vector<S, N>) -> S {

@@ -163,6 +163,7 @@ impl<'a, Sys: System<N>, const N: usize> Batch<'a, Sys, N> {
                 fraction,
                 decay: Decay::new(fraction),
                 corrects: method.corrects_level(),
+                near: method.near(),
             },
             trajectories: Vec::with_capacity(count),
             parameters: Vec::with_capacity(count * parameters),

@@ -71,6 +71,8 @@ pub(super) struct Register<const N: usize> {
     pub(super) steps: Wide,
     /// Steps made since the scale of the level was taken.
     pub(super) since: Wide,
+    /// How many steps are still made without a correction of the level.
+    pub(super) free: Wide,
     /// 1 in a lane that is not used, else 0.
     idle: Wide,
     /// A [`Leave`] as a number.
@@ -98,6 +100,7 @@ impl<const N: usize> Register<N> {
             rate: zero,
             steps: zero,
             since: zero,
+            free: zero,
             idle: zero,
             leave: zero,
             interface: zero,

@@ -10,6 +10,15 @@ use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Vector};
 
+/// Where a displacement towards the level leaves a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearly<K> {
+    /// Where its square, which it leaves, is more than a rounding error.
+    pub(crate) left: K,
+    /// Where it was a smaller part of the state than was asked for.
+    pub(crate) was_near: K,
+}
+
 /// A displacement by this part of the state is not left to be made good by the next step: what it leaves,
 /// its square, is to be far below the error of the step, which is about as large as the displacement.
 const FAR: f64 = 1e-2;
@@ -33,8 +42,8 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         self.reached_by_steps(dynamics, time, state, (&weights, used))
     }
 
-    /// The same by one displacement, and where its square, which is left, is more than a rounding
-    /// error.
+    /// The same by one displacement, and what it leaves; a state is near the level if the displacement
+    /// is a smaller part of it than `near`.
     ///
     /// What is left of one step the displacement of the next one takes off, as the level is that of
     /// the entry: it does not accumulate. A state that is told, or at which a segment ends, has to
@@ -46,11 +55,15 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         time: Time<S>,
         state: &mut State<N, S>,
         displacement: &Vector<S, N>,
-        (corrects, used): (bool, S::Mask),
-    ) -> S::Mask {
+        (corrects, used, near): (bool, S::Mask, f64),
+    ) -> Nearly<S::Mask> {
         if M == 0 || dynamics.quantities() == 0 || !corrects {
             *state = state.normalised();
-            return S::Mask::all_are(false);
+            let nowhere = S::Mask::all_are(false);
+            return Nearly {
+                left: nowhere,
+                was_near: nowhere,
+            };
         }
         let weights = Weights::new(&state.x, displacement);
         let once = Once {
@@ -58,6 +71,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             dynamics,
             place: (time, state),
             how: (&weights, used),
+            near,
         };
         if M > 1 && S::LANES == 1 {
             S::apart(once)
@@ -91,46 +105,59 @@ struct Once<'a, F, const N: usize, const M: usize, S: Masked> {
     dynamics: &'a F,
     place: (Time<S>, &'a mut State<N, S>),
     how: (&'a Weights<N, S>, S::Mask),
+    near: f64,
 }
 
 impl<F: Dynamics<S, N, M>, const N: usize, const M: usize, S: Masked> NullaryFnOnce
     for Once<'_, F, N, M, S>
 {
-    type Output = S::Mask;
+    type Output = Nearly<S::Mask>;
 
     #[inline(always)]
-    fn call(self) -> S::Mask {
+    fn call(self) -> Nearly<S::Mask> {
         let Self {
-            level, dynamics, ..
+            level,
+            dynamics,
+            near,
+            ..
         } = self;
         let ((time, state), (weights, used)) = (self.place, self.how);
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let off = remainder(dynamics, time, state);
         let residual = level.rounded_residual(&psi, &multiplier, &off);
         let little = level.bound(little(N), weights);
-        let (displacement, steep, left) = if M == 1 {
+        let (displacement, steep, left, is_far) = if M == 1 {
             let row = row(&multiplier, 0);
             let weighted = weights.times(&row);
             let square = dot(&row, &weighted);
             let inverse = S::from_f64(1.0) / square;
             let gain: Vector<S, N> = vector!(|i| weighted[i] * inverse);
-            let least = square * (weights.unit * S::from_f64(COARSE * COARSE));
-            let left = (residual[0] * residual[0]).above(least);
+            let (size, unit) = (residual[0] * residual[0], square * weights.unit);
+            let left = size.above(unit * S::from_f64(COARSE * COARSE));
+            let is_far = size.above(unit * S::from_f64(near * near));
             let displacement = vector!(|i| -(gain[i] * residual[0]));
-            (displacement, square.above(little[0]), left)
+            (displacement, square.above(little[0]), left, is_far)
         } else {
             let rows = (&multiplier, dynamics.quantities());
             let factors = Factors::new(weights, rows, &little);
             let displacement = factors.displacement(&residual);
             let left = weights.exceeded_by(&displacement, COARSE);
-            (displacement, factors.steep, left)
+            let is_far = weights.exceeded_by(&displacement, near);
+            (displacement, factors.steep, left, is_far)
         };
-        let reached = displaced(*state, &displacement);
+        let reached = if S::LANES > 1 && !dynamics.is_bounded() {
+            let none = S::from_f64(0.0);
+            let moved = vector!(|i| used.select(displacement[i], none).settled());
+            displaced(*state, &moved)
+        } else {
+            displaced(*state, &displacement)
+        };
         let flat = steep.not().and(used);
         let left = left.and(steep).and(used);
+        let was_near = is_far.not().and(steep);
         if !flat.or(left).any() {
             *state = reached;
-            return left;
+            return Nearly { left, was_near };
         }
         *state = select(flat, state, &reached);
         let far = weights.exceeded_by(&displacement, FAR).and(left);
@@ -138,7 +165,10 @@ impl<F: Dynamics<S, N, M>, const N: usize, const M: usize, S: Masked> NullaryFnO
         if rest.any() {
             *state = level.reached_by_steps(dynamics, time, *state, (weights, rest));
         }
-        left.and(rest.not())
+        Nearly {
+            left: left.and(rest.not()),
+            was_near,
+        }
     }
 }
 

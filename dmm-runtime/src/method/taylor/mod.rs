@@ -6,7 +6,7 @@ mod reach;
 mod segment;
 mod steps;
 
-pub(crate) use steps::{RESCALING, step_to};
+pub(crate) use steps::{FREE, RESCALING, step_to};
 
 use super::{Cursor, Ended, Failure, InLanes, Method, Sink, Variation, check_tolerance};
 use crate::arithmetic::{Scalar, State, Vector};
@@ -97,6 +97,12 @@ impl Taylor {
         MARGIN * self.tolerance
     }
 
+    /// Where nothing bounds a region and a displacement towards the level was no larger part of the
+    /// state than this, some steps are made without one.
+    pub(crate) fn near(&self) -> f64 {
+        self.tolerance
+    }
+
     /// The part of a step whose error is below rounding.
     fn finest(&self) -> f64 {
         (f64::EPSILON / self.tolerance).powf(1.0 / self.order() as f64)
@@ -125,6 +131,8 @@ pub struct Memory<const N: usize> {
     pub(crate) step: f64,
     /// The unit of time of the coefficients.
     pub(crate) unit: f64,
+    /// How many steps are still made without a correction of the level.
+    pub(crate) free: u32,
     /// The state of steps that were stopped, which is near the level; what was shown of it lies on it.
     stopped: Option<State<N>>,
 }
@@ -150,6 +158,7 @@ impl Method for Taylor {
             finest: self.finest(),
             step: 0.0,
             unit: 1.0,
+            free: 0,
             stopped: None,
         }
     }

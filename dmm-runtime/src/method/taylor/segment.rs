@@ -62,19 +62,22 @@ pub(super) struct Here<const N: usize> {
     pub(super) before: f64,
     /// How many there were.
     pub(super) steps: u64,
+    /// How many are still made without a correction of the level.
+    pub(super) free: u32,
 }
 
 impl<const N: usize> Here<N> {
     /// Where the cursor of a segment is, or what steps had there when they were stopped.
     #[inline(always)]
     pub(super) fn of<S>(segment: &mut Segment<'_, S, N>) -> Self {
-        let stopped = segment.memory.stopped.take();
-        let stopped = stopped.filter(|_| segment.cursor.level.is_some());
+        let goes_on = segment.cursor.level.is_some();
+        let stopped = segment.memory.stopped.take().filter(|_| goes_on);
         Self {
             time: segment.cursor.time,
             state: stopped.unwrap_or(segment.cursor.state),
             before: segment.memory.step,
             steps: 0,
+            free: if goes_on { segment.memory.free } else { 0 },
         }
     }
 }

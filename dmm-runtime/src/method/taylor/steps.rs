@@ -18,6 +18,10 @@ use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
 /// Steps between adaptions of the level's correction to the size of the state.
 pub(crate) const RESCALING: u64 = 256;
 
+/// Steps that are made without a correction of the level after one that was small. Beyond two the
+/// errors that a level keeps small begin to grow.
+pub(crate) const FREE: u32 = 2;
+
 /// A segment with P coefficients, still to be chosen.
 pub(super) struct Choose<'a, D, S, const N: usize, const M: usize> {
     pub(super) segment: Segment<'a, S, N>,
@@ -61,6 +65,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         self.cursor.time = here.time;
         self.cursor.state = here.state;
         self.memory.step = here.before;
+        self.memory.free = here.free;
         self.memory.unit = jet.unit();
         self.sink.statistics().steps += here.steps;
         let ended = match end {
@@ -149,7 +154,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Next<N> {
         let end = self.until;
         let fraction = self.memory.fraction;
-        let corrects = self.method.corrects_level();
+        let (corrects, near) = (self.method.corrects_level(), self.method.near());
         loop {
             let remaining = (end - here.time.value) - here.time.remainder;
             if remaining <= 0.0 {
@@ -182,8 +187,17 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 self.outputs_along::<P, M, D, U>(dynamics, *level, jet, *here, (tau, time));
             }
             let displacement = state.x - here.state.x;
-            let how = (corrects, true);
-            let left = level.nearly_reached(dynamics, time, &mut state, &displacement, how);
+            let left = if here.free == 0 || is_last {
+                let how = (corrects, true, near);
+                let nearly = level.nearly_reached(dynamics, time, &mut state, &displacement, how);
+                let is_free = !dynamics.is_bounded() && nearly.was_near;
+                here.free = if is_free { FREE } else { 0 };
+                nearly.left
+            } else {
+                state = state.normalised();
+                here.free -= 1;
+                true
+            };
             if !is_finite(&state.x) {
                 return Next::Not(tau);
             }
