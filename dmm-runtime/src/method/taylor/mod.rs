@@ -26,7 +26,9 @@ use crate::series::Unroll;
 /// coefficients, over which the first neglected term is below the tolerance relative to the
 /// state (Jorba & Zou, Experimental Mathematics 14, 2005, sections 3.1–3.2). After each step,
 /// and at each transition, the state is put back on the level of the conserved quantities: up to the
-/// square of its displacement where nobody is shown the point, to rounding elsewhere.
+/// square of its displacement where nobody is shown the point, to rounding elsewhere. In a region that
+/// no interface bounds steps go on from where they are two times out of three, while that is as near to
+/// the level as the tolerance; what is shown lies on it.
 /// Every zero of a switching function in a step is found, however slowly its own series
 /// converges: see [the front page](crate#every-crossing).
 ///

@@ -39,7 +39,7 @@ pub use tables::Tables;
 /// Straight-line code up to so many recurrences; a loop beyond, which compiles many times as fast. Time of a
 /// step by a loop over straight-line code, at tolerances of 10⁻⁴, 10⁻⁸ and 10⁻¹²: Hénon–Heiles (3
 /// recurrences) 1.69, 1.75, 1.65; Toda ring of 3 masses, a pack, 1.16, 1.13, 1.08; Pöschl–Teller (5) 1.29, 1.51, 1.21;
-/// Kepler (5) 1.28, 1.35, 1.30; double pendulum (19 then) 0.79, 0.59, 0.54; three bodies 0.89, 0.69, 0.61.
+/// Kepler (5) 1.28, 1.35, 1.30; double pendulum (13) 1.00, 0.59, 0.53; three bodies 0.89, 0.69, 0.61.
 const MOST_STRAIGHT: usize = 5;
 
 /// The recurrences of some roots.
