@@ -98,17 +98,17 @@ fn eliminate<const N: usize>(a: &mut Matrix<f64, N, N>, b: &mut Vector<f64, N>) 
         if !inverse.is_finite() {
             return None;
         }
-        let (left, right) = columns.split_at_mut(k + 1);
-        let factors = &mut left[k];
+        // a copy, which cannot lie in another column
+        let mut factors = columns[k];
         for factor in &mut factors[k + 1..] {
             *factor *= inverse;
         }
-        for column in right {
+        for column in &mut columns[k + 1..] {
             if column[k] != 0.0 {
-                subtract(column, factors, k);
+                subtract(column, &factors, k);
             }
         }
-        subtract(b, factors, k);
+        subtract(b, &factors, k);
     }
     for k in (0..N).rev() {
         b[k] /= columns[k][k];
