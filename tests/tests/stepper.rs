@@ -38,6 +38,16 @@ pws! {
     }
 }
 
+pws! {
+    /// Bounded by nothing.
+    pub system Duffing {
+        state x, y;
+        der(x) = y;
+        der(y) = -x - x^3;
+        conserved energy = (y^2 + x^2)/2 + x^4/4;
+    }
+}
+
 const START: [f64; 2] = [0.3, 1.0];
 
 fn stepper<Sys: System<2>, Met: Method>(system: &Sys, method: Met) -> Stepper<Sys, Met, 2> {
@@ -92,6 +102,30 @@ fn every_method_steps_as_it_runs() {
     steps_are_those_of_a_run(&oscillator, Best::tolerance(1e-9));
     steps_are_those_of_a_run(&Springs::default(), Best::tolerance(1e-12));
     steps_are_those_of_a_run(&Springs::default(), Symmetric::step_size(1e-2));
+}
+
+/// Steps that nothing bounds go on from states that are near the level; what is shown lies on it.
+#[test]
+fn points_between_corrections_are_those_of_a_run_and_on_the_level() {
+    let system = Duffing::default();
+    let energy = |x: &[f64]| (x[1] * x[1] + x[0] * x[0]) / 2.0 + x[0].powi(4) / 4.0;
+    for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
+        let method = Taylor::tolerance(tolerance);
+        let problem = || Integrator::new(&system, method).initial(0.0, START);
+        let solution = problem().run_until(40.0).unwrap();
+        let mut stepper = problem().stepper(40.0).unwrap();
+        for expected in &solution.points()[1..] {
+            let Some(Stepped::Step(point)) = stepper.step().unwrap() else {
+                panic!("no step to {}", expected.t);
+            };
+            assert_eq!((point.t, point.x), (expected.t, expected.x));
+            let error = energy(point.x.as_slice()) - energy(&START);
+            assert!(error.abs() < 4.0 * f64::EPSILON, "{error:e} at {}", point.t);
+        }
+        assert!(stepper.step().unwrap().is_none());
+        let silent = problem().observe_until(40.0, &mut ()).unwrap();
+        assert_eq!(silent.point.x, solution.last().unwrap().x);
+    }
 }
 
 #[test]
