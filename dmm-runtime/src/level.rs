@@ -39,6 +39,7 @@ use crate::contract::{Dynamics, Matrix, Vector};
 use factors::Factors;
 pub(crate) use guard_point::{Found, GuardPoint, OnGuard};
 use pairs::{MOST_IN_PAIRS, in_pairs, remainder, switching_in_pairs};
+pub(crate) use reached::Turn;
 pub(crate) use weights::{COARSE, Weights};
 
 /// The level of the conserved quantities in a segment.

@@ -14,8 +14,8 @@ use crate::expansion::polynomial::increment;
 use crate::expansion::radius::{
     FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE, decisive, decisive_terms, radius,
 };
-use crate::level::Level;
-use crate::method::taylor::{FREE, RESCALING, step_to};
+use crate::level::{Level, Turn};
+use crate::method::taylor::{RESCALING, step_to};
 
 /// Halvings of a step of which the ends do not tell enough.
 const MOST_HALVINGS: u32 = 2;
@@ -47,7 +47,7 @@ pub(super) struct Settings {
     pub(super) fraction: f64,
     pub(super) decay: Decay,
     pub(super) corrects: bool,
-    /// See [`crate::level::Level::nearly_reached`].
+    /// See [`Turn`].
     pub(super) near: f64,
 }
 
@@ -278,7 +278,15 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         };
         let mut level = self.register.level();
         let displacement = vector!(|i| state.x[i] - self.register.state.x[i]);
-        let (left, free) = self.correct(&level, (time, &mut state), &displacement, last);
+        let Settings { corrects, near, .. } = *self.settings;
+        let mut free = self.register.free;
+        let turn = Turn {
+            free: &mut free,
+            last,
+            near,
+        };
+        let how = (corrects, used);
+        let left = level.nearly_reached(self.dynamics, time, &mut state, &displacement, how, turn);
         let left = left.and(last);
         if left.any() {
             let how = (true, left);
@@ -312,36 +320,6 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         self.register.tau = tau;
         let crosses = (ahead.crosses, ahead.interface);
         self.register.note(hard, crosses, moved.and(last))
-    }
-
-    /// Puts the ends of steps back on the level, of the lanes whose turn it is; what is left of it, and
-    /// how many steps are then made without a correction.
-    #[inline(always)]
-    fn correct(
-        &self,
-        level: &Level<N, M, Wide>,
-        (time, state): (Time<Wide>, &mut State<N, Wide>),
-        displacement: &Vector<Wide, N>,
-        last: WideMask,
-    ) -> (WideMask, Wide) {
-        let n = Wide::from_f64;
-        let Settings { corrects, near, .. } = *self.settings;
-        let used = self.register.used();
-        if self.dynamics.is_bounded() {
-            let how = (corrects, used, near);
-            let nearly = level.nearly_reached(self.dynamics, time, state, displacement, how);
-            return (nearly.left, n(0.0));
-        }
-        let free = self.register.free;
-        let is_due = free.above(n(0.0)).not().or(last).and(used);
-        if !is_due.any() {
-            *state = state.normalised();
-            return (is_due, free - n(1.0));
-        }
-        let how = (corrects, is_due, near);
-        let nearly = level.nearly_reached(self.dynamics, time, state, displacement, how);
-        let others = nearly.was_near.select(n(f64::from(FREE)), n(0.0));
-        (nearly.left, is_due.select(others, free - n(1.0)))
     }
 
     /// What the lanes meet in steps over `tau` that end at a place.

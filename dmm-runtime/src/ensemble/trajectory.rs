@@ -197,7 +197,7 @@ impl<const N: usize> Register<N> {
         self.time.remainder.0[lane] = from.time.remainder;
         self.before.0[lane] = from.memory.step;
         self.since.0[lane] = from.since;
-        self.free.0[lane] = f64::from(from.memory.free);
+        self.free.0[lane] = from.memory.free;
         self.from.0[lane] = from.from;
         self.elapsed.0[lane] = from.elapsed;
         self.tau.0[lane] = from.tau;
@@ -237,7 +237,7 @@ impl<const N: usize> Register<N> {
         to.time.remainder = self.time.remainder.0[lane];
         to.memory.step = self.before.0[lane];
         to.since = self.since.0[lane];
-        to.memory.free = self.free.0[lane] as u32;
+        to.memory.free = self.free.0[lane];
         to.from = self.from.0[lane];
         to.elapsed = self.elapsed.0[lane];
         to.tau = self.tau.0[lane];

@@ -10,13 +10,27 @@ use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time};
 use crate::contract::{Dynamics, Vector};
 
+/// Steps that are made without a correction after one that was small. Beyond two the errors that a
+/// level keeps small begin to grow.
+const FREE: f64 = 2.0;
+
+/// Which steps are corrected where nothing bounds a region.
+#[derive(Debug)]
+pub(crate) struct Turn<'a, S: Masked> {
+    /// How many are still made without, from 0 at the entry on.
+    pub(crate) free: &'a mut S,
+    /// The last ones are corrected.
+    pub(crate) last: S::Mask,
+    /// A smaller part of the state is a small displacement.
+    pub(crate) near: f64,
+}
+
 /// Where a displacement towards the level leaves a state.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Nearly<K> {
+struct Nearly<K> {
     /// Where its square, which it leaves, is more than a rounding error.
-    pub(crate) left: K,
-    /// Where it was a smaller part of the state than was asked for.
-    pub(crate) was_near: K,
+    left: K,
+    /// Where it was small.
+    was_near: K,
 }
 
 /// A displacement by this part of the state is not left to be made good by the next step: what it leaves,
@@ -42,10 +56,10 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         self.reached_by_steps(dynamics, time, state, (&weights, used))
     }
 
-    /// The same by one displacement, and what it leaves; a state is near the level if the displacement
-    /// is a smaller part of it than `near`.
+    /// The same by one displacement, if it is the step's turn, and where a state is off the level by
+    /// more than a rounding error then.
     ///
-    /// What is left of one step the displacement of the next one takes off, as the level is that of
+    /// What is left of one step the displacement of a later one takes off, as the level is that of
     /// the entry: it does not accumulate. A state that is told, or at which a segment ends, has to
     /// be [`reached`](Self::reached).
     #[inline(always)]
@@ -55,29 +69,44 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         time: Time<S>,
         state: &mut State<N, S>,
         displacement: &Vector<S, N>,
-        (corrects, used, near): (bool, S::Mask, f64),
-    ) -> Nearly<S::Mask> {
+        (corrects, used): (bool, S::Mask),
+        Turn { free, last, near }: Turn<'_, S>,
+    ) -> S::Mask {
         if M == 0 || dynamics.quantities() == 0 || !corrects {
             *state = state.normalised();
-            let nowhere = S::Mask::all_are(false);
-            return Nearly {
-                left: nowhere,
-                was_near: nowhere,
-            };
+            return S::Mask::all_are(false);
+        }
+        let none = S::from_f64(0.0);
+        let is_bounded = dynamics.is_bounded();
+        let is_due = if is_bounded {
+            used
+        } else {
+            free.above(none).not().or(last).and(used)
+        };
+        let fewer = *free - S::from_f64(1.0);
+        if !is_due.any() {
+            *state = state.normalised();
+            *free = fewer;
+            return used;
         }
         let weights = Weights::new(&state.x, displacement);
         let once = Once {
             level: self,
             dynamics,
             place: (time, state),
-            how: (&weights, used),
+            how: (&weights, is_due),
             near,
         };
-        if M > 1 && S::LANES == 1 {
+        let Nearly { left, was_near } = if M > 1 && S::LANES == 1 {
             S::apart(once)
         } else {
             once.call()
+        };
+        if is_bounded {
+            return left;
         }
+        *free = is_due.select(was_near.select(S::from_f64(FREE), none), fewer);
+        left.or(used.and(is_due.not()))
     }
 
     /// The same by one correction after the other, in the lanes that are `used`.

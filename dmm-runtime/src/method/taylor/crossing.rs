@@ -67,7 +67,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         self.cursor.time = time;
         self.sink.statistics().steps += 1;
         self.memory.step = tau;
-        self.memory.free = 0;
+        self.memory.free = 0.0;
         Ended::AtGuard {
             guard: found.guard,
             rate,

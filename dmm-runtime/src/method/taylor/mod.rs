@@ -6,7 +6,7 @@ mod reach;
 mod segment;
 mod steps;
 
-pub(crate) use steps::{FREE, RESCALING, step_to};
+pub(crate) use steps::{RESCALING, step_to};
 
 use super::{Cursor, Ended, Failure, InLanes, Method, Sink, Variation, check_tolerance};
 use crate::arithmetic::{Scalar, State, Vector};
@@ -134,7 +134,7 @@ pub struct Memory<const N: usize> {
     /// The unit of time of the coefficients.
     pub(crate) unit: f64,
     /// How many steps are still made without a correction of the level.
-    pub(crate) free: u32,
+    pub(crate) free: f64,
     /// The state of steps that were stopped, which is near the level; what was shown of it lies on it.
     stopped: Option<State<N>>,
 }
@@ -160,7 +160,7 @@ impl Method for Taylor {
             finest: self.finest(),
             step: 0.0,
             unit: 1.0,
-            free: 0,
+            free: 0.0,
             stopped: None,
         }
     }

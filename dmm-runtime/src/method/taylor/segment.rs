@@ -63,7 +63,7 @@ pub(super) struct Here<const N: usize> {
     /// How many there were.
     pub(super) steps: u64,
     /// How many are still made without a correction of the level.
-    pub(super) free: u32,
+    pub(super) free: f64,
 }
 
 impl<const N: usize> Here<N> {
@@ -77,7 +77,7 @@ impl<const N: usize> Here<N> {
             state: stopped.unwrap_or(segment.cursor.state),
             before: segment.memory.step,
             steps: 0,
-            free: if goes_on { segment.memory.free } else { 0 },
+            free: if goes_on { segment.memory.free } else { 0.0 },
         }
     }
 }

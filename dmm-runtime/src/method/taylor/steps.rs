@@ -11,16 +11,12 @@ use crate::arithmetic::{State, Time, filled};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::OtherUnit;
-use crate::level::{Found, Level};
+use crate::level::{Found, Level, Turn};
 use crate::method::{Ended, Failure, Sink, StepFailure};
 use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
 
 /// Steps between adaptions of the level's correction to the size of the state.
 pub(crate) const RESCALING: u64 = 256;
-
-/// Steps that are made without a correction of the level after one that was small. Beyond two the
-/// errors that a level keeps small begin to grow.
-pub(crate) const FREE: u32 = 2;
 
 /// A segment with P coefficients, still to be chosen.
 pub(super) struct Choose<'a, D, S, const N: usize, const M: usize> {
@@ -187,17 +183,13 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 self.outputs_along::<P, M, D, U>(dynamics, *level, jet, *here, (tau, time));
             }
             let displacement = state.x - here.state.x;
-            let left = if here.free == 0 || is_last {
-                let how = (corrects, true, near);
-                let nearly = level.nearly_reached(dynamics, time, &mut state, &displacement, how);
-                let is_free = !dynamics.is_bounded() && nearly.was_near;
-                here.free = if is_free { FREE } else { 0 };
-                nearly.left
-            } else {
-                state = state.normalised();
-                here.free -= 1;
-                true
+            let how = (corrects, true);
+            let turn = Turn {
+                free: &mut here.free,
+                last: is_last,
+                near,
             };
+            let left = level.nearly_reached(dynamics, time, &mut state, &displacement, how, turn);
             if !is_finite(&state.x) {
                 return Next::Not(tau);
             }
