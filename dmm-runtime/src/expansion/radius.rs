@@ -207,6 +207,25 @@ pub(crate) fn decisive_terms<S: Masked, const P: usize>(
     order: usize,
     before: S,
 ) -> (S, S) {
+    /// Of a few terms LLVM knows that their maximum is a number, and of many it looks at each.
+    const PART: usize = 4;
+    let (few, others) = components.split_at(components.len().min(PART));
+    let (mut last, mut second) = largest_terms(few, order, before);
+    for part in others.chunks(PART) {
+        let largest = largest_terms(part, order, before);
+        last = last.max(largest.0);
+        second = second.max(largest.1);
+    }
+    (last, second)
+}
+
+/// The same of a few components.
+#[inline(always)]
+fn largest_terms<S: Masked, const P: usize>(
+    components: &[[S; P]],
+    order: usize,
+    before: S,
+) -> (S, S) {
     let n = S::from_f64;
     let (mut last, mut second) = (n(0.0), n(0.0));
     for c in components {
