@@ -63,6 +63,12 @@ pub trait Scalar:
     fn products_by_column<const W: usize>(a: &[Self], b: &[Self]) -> [Self; W] {
         rows::products(Self::from_f64(0.0), Self::fused, a, b)
     }
+    /// Four scalars in one vector, where there are such.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn joined(four: [Self; 4]) -> [Self; 4] {
+        four
+    }
     /// u + v of four scalars.
     #[doc(hidden)]
     #[inline(always)]

@@ -148,6 +148,10 @@ impl<S: Scalar, F: Dynamics<S, N, M>, const N: usize, const M: usize> Coefficien
 pub(crate) type GuardsUnrolled<S, F, const N: usize, const M: usize> =
     <<F as Dynamics<S, N, M>>::Guards as Guards<S, N>>::Unrolled;
 
+/// Of more bytes of coefficients the code is there once: what they are computed by is so much that it gains
+/// nothing by what goes before or follows.
+const MOST_INLINED: usize = 4096;
+
 /// So many states are filled twice at no cost.
 const FEW: usize = 8;
 
@@ -233,6 +237,21 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     /// The solution's coefficients at (t, x).
     #[inline(always)]
     pub(crate) fn expand(&mut self, dynamics: &F, t: f64, x: &Vector<f64, N>) {
+        if const { size_of::<F::Series<P>>() > MOST_INLINED } {
+            self.expand_apart(dynamics, t, x);
+        } else {
+            self.expand_here(dynamics, t, x);
+        }
+    }
+
+    /// The same by code that is there once.
+    #[inline(never)]
+    fn expand_apart(&mut self, dynamics: &F, t: f64, x: &Vector<f64, N>) {
+        self.expand_here(dynamics, t, x);
+    }
+
+    #[inline(always)]
+    fn expand_here(&mut self, dynamics: &F, t: f64, x: &Vector<f64, N>) {
         let end = self.order + 1;
         let unit = self.unit();
         expand::<f64, F, U, N, M, P>(dynamics, (t, x), &mut self.solution, end, unit);

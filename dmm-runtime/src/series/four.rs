@@ -49,6 +49,13 @@ impl<S: Scalar> Four<S> {
         Self([value; LANES])
     }
 
+    /// Four values as one vector: the row of a table that is written by parts cannot be read as a whole at
+    /// once.
+    #[inline(always)]
+    pub fn joined(values: [S; LANES]) -> Self {
+        Self(S::joined(values))
+    }
+
     /// Those of the lanes from `lane` on.
     #[inline(always)]
     pub fn of_lanes(lanes: &[S], lane: usize) -> Self {

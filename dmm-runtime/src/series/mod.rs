@@ -20,7 +20,7 @@ mod unroll;
 
 pub use four::{Arithmetic, Four, four, set_four};
 pub use sums::{half_sums, inner_sums, row};
-pub use unroll::{Choice, Coefficients, Rolled, Straight, Unroll};
+pub use unroll::{Choice, Coefficients, Mixed, Rolled, Straight, Unroll};
 
 use crate::arithmetic::Scalar;
 
@@ -204,6 +204,22 @@ pub fn quotient_from<S: Arithmetic, K: Order>(k: K, u: S, v: S, first: S, invers
     (-v).times_plus(first, u - sum) * inverse
 }
 
+/// The same where uₖ is known last.
+#[inline(always)]
+pub fn late_quotient_from<S: Arithmetic, K: Order>(
+    k: K,
+    u: S,
+    v: S,
+    first: S,
+    inverse: S,
+    sum: S,
+) -> S {
+    if k.get() == 0 {
+        return u * inverse;
+    }
+    u.times_plus(inverse, (-v).times_plus(first, -sum) * inverse)
+}
+
 /// Coefficient k ≥ 1 of w = √u from uₖ, the one of w of order ⌊k/2⌋ and the [`half_sums`] of w;
 /// `inverse` is 1/(2w₀).
 #[inline(always)]
@@ -307,6 +323,18 @@ pub fn quotient<S: Scalar, K: Order, const P: usize>(
     inverse: S,
 ) -> S {
     quotient_from(k, u, v[k.get()], w[0], inverse, inner(k, v, w))
+}
+
+/// The same where uₖ is known last.
+#[inline(always)]
+pub fn late_quotient<S: Scalar, K: Order, const P: usize>(
+    k: K,
+    u: S,
+    v: &[S; P],
+    w: &[S; P],
+    inverse: S,
+) -> S {
+    late_quotient_from(k, u, v[k.get()], w[0], inverse, inner(k, v, w))
 }
 
 /// Coefficient k ≥ 1 of w = √u from uₖ; `inverse` is 1/(2w₀).

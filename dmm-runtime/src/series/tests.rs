@@ -93,6 +93,17 @@ fn sums_in_lanes_are_those_of_each() {
 }
 
 #[test]
+fn four_values_in_one_vector_stay_what_they_are() {
+    for four in [
+        [1.5, -0.0, f64::MIN_POSITIVE, -f64::MAX],
+        [0.0, f64::INFINITY, f64::NEG_INFINITY, -5e-324],
+    ] {
+        let joined = Four::joined(four).0;
+        assert_eq!(joined.map(f64::to_bits), four.map(f64::to_bits));
+    }
+}
+
+#[test]
 fn recurrences_side_by_side_are_those_of_each() {
     let numbers = |seed: u64| -> [f64; 4] { std::array::from_fn(|i| sample(seed)[2 + i] + 1.0) };
     let [u, u0, v, v0, sum, middle] = [11, 12, 13, 14, 15, 16].map(numbers);
@@ -107,6 +118,8 @@ fn recurrences_side_by_side_are_those_of_each() {
         assert_eq!(half_square_from(k, [f0, f], m, s).0, each(&half));
         let quotient = |i: usize| quotient_from(k, u[i], v[i], u0[i], v0[i], sum[i]);
         assert_eq!(quotient_from(k, f, g, f0, g0, s).0, each(&quotient));
+        let late = |i: usize| late_quotient_from(k, u[i], v[i], u0[i], v0[i], sum[i]);
+        assert_eq!(late_quotient_from(k, f, g, f0, g0, s).0, each(&late));
         let root = |i: usize| square_root_from(k, u[i], middle[i], v0[i], sum[i]);
         assert_eq!(square_root_from(k, f, m, g0, s).0, each(&root));
         let integral = |i: usize| integral_from(k, u[i], v0[i], sum[i]);
@@ -124,6 +137,10 @@ fn quotients_roots_and_powers_are_inverse_to_products() {
     let (u, v) = (sample(3), sample(4));
     let w = series(u[0] / v[0], |k, w| quotient(k, u[k], &v, w, 1.0 / v[0]));
     assert_close(&times(&w, &v), &u);
+    let late = series(u[0] / v[0], |k, w| {
+        late_quotient(k, u[k], &v, w, 1.0 / v[0])
+    });
+    assert_close(&late, &w);
     let w = series(u[0].sqrt(), |k, w| {
         square_root(k, u[k], w, 0.5 / u[0].sqrt())
     });

@@ -16,8 +16,8 @@ pub trait Choice {
     /// What comes of it.
     type Output;
 
-    /// Does it.
-    fn with<const P: usize>(self) -> Self::Output;
+    /// Does it, with coefficients that advance like U.
+    fn with<const P: usize, U: Unroll>(self) -> Self::Output;
 }
 
 /// How [`Coefficients`] advance.
@@ -46,7 +46,7 @@ impl Unroll for Rolled {
 
     #[inline(always)]
     fn choose<C: Choice>(_order: usize, choice: C) -> C::Output {
-        choice.with::<MOST_COEFFICIENTS>()
+        choice.with::<MOST_COEFFICIENTS, Self>()
     }
 
     #[inline(always)]
@@ -104,9 +104,9 @@ impl Unroll for Straight {
     #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
         match order {
-            12 => choice.with::<13>(),
-            18 => choice.with::<19>(),
-            _ => choice.with::<MOST_COEFFICIENTS>(),
+            12 => choice.with::<13, Self>(),
+            18 => choice.with::<19, Self>(),
+            _ => choice.with::<MOST_COEFFICIENTS, Self>(),
         }
     }
 
@@ -117,5 +117,34 @@ impl Unroll for Straight {
     ) {
         orders!(series, FROM, TO, LESS:
             0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22);
+    }
+}
+
+/// Straight-line code for all but the highest order in a build for a processor with vectors of four doubles
+/// and the fused operation, and a loop otherwise: what is larger than the cache of instructions is slower
+/// than a loop, and without them straight-line code is four times as long.
+#[derive(Clone, Copy, Debug)]
+pub struct Mixed;
+
+impl Unroll for Mixed {
+    const EXACT: bool = Rolled::EXACT;
+
+    #[inline(always)]
+    fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
+        match order {
+            #[cfg(all(target_feature = "avx2", target_feature = "fma"))]
+            12 => choice.with::<13, Straight>(),
+            #[cfg(all(target_feature = "avx2", target_feature = "fma"))]
+            18 => choice.with::<19, Straight>(),
+            _ => Rolled::choose(order, choice),
+        }
+    }
+
+    #[inline(always)]
+    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
+        series: &mut C,
+        end: usize,
+    ) {
+        Rolled::run::<FROM, TO, LESS, C>(series, end);
     }
 }

@@ -44,6 +44,13 @@ impl Scalar for f64 {
         rows::products_by_vectors(a, b)
     }
 
+    /// The larger of −∞ and each, as LLVM would take a vector that nothing is done with apart again.
+    #[inline(always)]
+    fn joined(four: [f64; 4]) -> [f64; 4] {
+        let least = f64x4::splat(f64::NEG_INFINITY);
+        least.fast_max(f64x4::new(four)).to_array()
+    }
+
     #[inline(always)]
     fn four_sums(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
         (f64x4::new(u) + f64x4::new(v)).to_array()

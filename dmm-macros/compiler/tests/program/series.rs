@@ -171,6 +171,7 @@ impl Order<'_> {
                 denominator,
                 own,
                 inverse,
+                ..
             } => {
                 let inverse = self.inverse(inverse, self.at(denominator, 0));
                 (self.value(numerator) - self.sum(denominator, own, 1..k + 1)) * inverse

@@ -23,9 +23,9 @@ pub(super) struct Reach<'a, D, const N: usize, const M: usize> {
 impl<D: Dynamics<f64, N, M>, const N: usize, const M: usize> Choice for Reach<'_, D, N, M> {
     type Output = Result<(), Failure>;
 
-    fn with<const P: usize>(self) -> Self::Output {
+    fn with<const P: usize, U: Unroll>(self) -> Self::Output {
         if self.unit == 1.0 {
-            self.run::<P, D::Unrolled>()
+            self.run::<P, U>()
         } else {
             self.run::<MOST_COEFFICIENTS, Rolled>()
         }

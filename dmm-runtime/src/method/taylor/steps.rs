@@ -31,13 +31,13 @@ where
 {
     type Output = Result<Ended, Failure>;
 
-    fn with<const P: usize>(self) -> Self::Output {
+    fn with<const P: usize, U: Unroll>(self) -> Self::Output {
         let Self {
             mut segment,
             dynamics,
         } = self;
         if segment.memory.unit == 1.0 {
-            segment.expand::<P, M, D, D::Unrolled>(dynamics)
+            segment.expand::<P, M, D, U>(dynamics)
         } else {
             segment.expand_in_units(dynamics)
         }

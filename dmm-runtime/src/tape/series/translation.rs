@@ -47,6 +47,7 @@ impl Translation<'_> {
                 denominator,
                 own,
                 inverse,
+                ..
             } => Step::Quotient {
                 to,
                 numerator: self.value(numerator),

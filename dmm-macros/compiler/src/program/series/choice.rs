@@ -56,6 +56,7 @@ impl<'a> Choice<'a> {
                 node,
                 recurrence,
                 kept: self.slots.number(node),
+                depth: self.depth(node),
             }
         });
         coefficients.collect()
@@ -107,13 +108,14 @@ impl<'a> Choice<'a> {
                 denominator: self.node(b),
                 own: self.node(id),
                 inverse: place(Slot::Inverse(id)),
+                is_late: self.depth(a) >= self.depth(b),
             },
             Math::Pow([a, b]) if !self.is_moving(b) => Recurrence::Power {
                 base: self.node(a),
                 exponent: b,
                 own: self.node(id),
                 inverse: place(Slot::Inverse(id)),
-                derivatives: (self.slots.sums == Sums::Rolled)
+                derivatives: (self.slots.sums != Sums::Straight)
                     .then(|| [a, id].map(|one| place(Slot::Derivative(one)))),
             },
             Math::Pow([a, b]) => Recurrence::VariablePower {

@@ -36,11 +36,16 @@ pub use scaled::{Factor, Later, Scaled};
 pub(super) use shortest::for_series;
 pub use tables::Tables;
 
-/// Straight-line code up to so many recurrences; a loop beyond, which compiles many times as fast. Time of a
-/// step by a loop over straight-line code, at tolerances of 10⁻⁴, 10⁻⁸ and 10⁻¹²: Hénon–Heiles (3
-/// recurrences) 1.69, 1.75, 1.65; Toda ring of 3 masses, a pack, 1.16, 1.13, 1.08; Pöschl–Teller (5) 1.29, 1.51, 1.21;
-/// Kepler (5) 1.28, 1.35, 1.30; double pendulum (13) 1.00, 0.59, 0.53; three bodies 0.89, 0.69, 0.61.
+/// Straight-line code by arrays up to so many recurrences. Time of a step by a loop over it, at tolerances of
+/// 10⁻⁴, 10⁻⁸ and 10⁻¹²: Hénon–Heiles (3 recurrences) 1.69, 1.75, 1.65; Toda ring of 3 masses, a pack, 1.16,
+/// 1.13, 1.08; Pöschl–Teller (4) 1.29, 1.51, 1.21; Kepler (5) 1.28, 1.35, 1.30; double pendulum (11) 1.00, 0.59,
+/// 0.53; three bodies (15) 0.89, 0.69, 0.61.
 const MOST_STRAIGHT: usize = 5;
+
+/// Straight-line code by tables up to so many recurrences, but for the highest order. Time of a step by it
+/// over that by a loop, at 12, 18 and 22 orders: double pendulum 0.87, 0.91, 0.97; chain of 4 masses (10)
+/// 0.75, 0.81, 0.96; of 8 (18) 0.83, 0.93, 1.3; three bodies 0.89, 0.99, 1.3; chain of 16 (34) 0.85, 1.23, 1.0.
+const MOST_MIXED: usize = 20;
 
 /// The recurrences of some roots.
 #[derive(Debug)]
@@ -70,9 +75,12 @@ pub struct Series {
 /// How the sums over the coefficients of lower order are run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sums {
-    /// Written out for every order.
+    /// Each by itself, written out for every order.
     Straight,
-    /// By loops, each over several sums.
+    /// Several together, in lanes of tables: written out for all orders of Taylor steps but the highest, and
+    /// by loops for that and for other schemes.
+    Mixed,
+    /// Several together by loops.
     Rolled,
 }
 
@@ -81,6 +89,8 @@ impl Sums {
     fn of(recurrences: usize) -> Self {
         if recurrences <= MOST_STRAIGHT {
             Self::Straight
+        } else if recurrences <= MOST_MIXED {
+            Self::Mixed
         } else {
             Self::Rolled
         }
@@ -96,6 +106,8 @@ pub struct Coefficient {
     pub recurrence: Recurrence,
     /// The slot that keeps its coefficients, if a recurrence needs them.
     pub kept: Option<usize>,
+    /// How many operations follow on each other until it is known.
+    pub depth: usize,
 }
 
 /// What is made of the coefficient of a root.

@@ -261,7 +261,7 @@ fn has_recurrence(lowered: &Lowered, id: Id, sums: Sums) -> bool {
         Math::Mul([a, b]) => is_moving(a) && is_moving(b),
         Math::Div([_, b]) => is_moving(b),
         // by a sum of its own in straight-line code
-        Math::Pow([a, b]) => sums == Sums::Rolled && is_moving(a) && !is_moving(b),
+        Math::Pow([a, b]) => sums != Sums::Straight && is_moving(a) && !is_moving(b),
         Math::Call(function, _) => matches!(
             function.properties().equation,
             Equation::Root | Equation::Exponential | Equation::Pair { .. }

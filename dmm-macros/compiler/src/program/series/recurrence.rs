@@ -34,6 +34,8 @@ pub enum Recurrence {
         own: Place,
         /// 1/v at order zero
         inverse: Place,
+        /// Whether u is known last.
+        is_late: bool,
     },
     /// w = u^c, c constant in time
     Power {

@@ -44,7 +44,7 @@ impl Slots {
         let needed: Vec<Vec<Slot>> = needed.filter(|slots| !slots.is_empty()).collect();
         let sums = Sums::of(needed.len());
         let mut slots: BTreeSet<Slot> = needed.into_iter().flatten().collect();
-        if sums == Sums::Rolled {
+        if sums != Sums::Straight {
             let powers = moving.iter().filter_map(|&id| match lowered.dag()[id] {
                 Math::Pow([a, b]) if lowered.is_fixed(b) => Some([a, id].map(Slot::Derivative)),
                 _ => None,

@@ -62,7 +62,7 @@ impl Tables {
         let of_nodes = single.flat_map(|(_, one)| one.recurrence.sums());
         let all = of_nodes.chain(results.iter().flat_map(SeriesResult::sums));
         tables.first_single = [tables.inner.len(), tables.half.len()];
-        if sums == Sums::Rolled {
+        if sums != Sums::Straight {
             let mut seen = BTreeSet::new();
             for sum in all.filter(|sum| seen.insert(*sum)) {
                 tables.add(sum);

@@ -44,6 +44,7 @@ impl States {
 pub(super) fn unrolled(series: &Series) -> TokenStream {
     match series.sums {
         Sums::Straight => quote!(dmm::series::Straight),
+        Sums::Mixed => quote!(dmm::series::Mixed),
         Sums::Rolled => quote!(dmm::series::Rolled),
     }
 }
@@ -86,7 +87,7 @@ pub(super) fn body(
         &series.operations,
         &series.roots,
     );
-    let mut writer = Writer::new(scope, states, &series.tables, block.fusing(true));
+    let mut writer = Writer::new(scope, states, series, block.fusing(true));
     writer.sums();
     let mut packs = series.packs.iter().enumerate().peekable();
     let mut index = 0;
@@ -125,6 +126,11 @@ fn results(
                 None => (value, step.clone()),
                 Some(later) => (&later.value, writer.scale_of_later(later, &step)),
             });
+        }
+    }
+    for (index, (one, _)) in scaled.iter().enumerate() {
+        if scaled[..index].iter().any(|(other, _)| other == one) {
+            writer.name(one);
         }
     }
     let mut scaled = writer.scaled_together(&scaled).into_iter();

@@ -7,6 +7,7 @@ use egg::Language;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::sums::quotient;
 use super::vectors::Lanes;
 use super::writer::{Writer, minus};
 use crate::algebra::{Id, Math};
@@ -144,13 +145,14 @@ impl Writer<'_, '_> {
                 Self::call("product_from", &[u, v, self.inner_sums_from(lane)])
             }
             Recurrence::Quotient { .. } => {
-                taken!(pack, Quotient: numerator, denominator, inverse);
+                taken!(pack, Quotient: numerator, denominator, inverse, is_late);
                 let lane = *pack.lanes.first()?;
                 let (u, v) = (self.values(numerator), self.newest_of(denominator));
                 let values = denominator.map(|place| self.newest(place));
                 let inverse = self.inverses(inverse, values);
                 let (first, sum) = (self.row_from(1, lane, &at_zero), self.inner_sums_from(lane));
-                Self::call("quotient_from", &[u, v, first, inverse, sum])
+                let name = quotient(is_late.contains(&true));
+                Self::call(&format!("{name}_from"), &[u, v, first, inverse, sum])
             }
             Recurrence::Power { .. } => return self.powers(pack),
             Recurrence::SquareRoot { .. } => {

@@ -25,10 +25,11 @@ impl Writer<'_, '_> {
                 denominator,
                 own,
                 inverse,
+                is_late,
             } => {
                 let (u, v) = (self.value(numerator), self.newest(denominator));
                 let inverse = self.inverse(inverse, &v);
-                self.quotient(u, [denominator, own], inverse)
+                self.quotient((u, is_late), [denominator, own], inverse)
             }
             Recurrence::Power {
                 base,

@@ -11,6 +11,11 @@ use super::writer::Writer;
 use crate::emit::rust::paths;
 use crate::program::series::{Place, Sum};
 
+/// The function of a quotient whose numerator is known last or not.
+pub(super) fn quotient(is_late: bool) -> &'static str {
+    if is_late { "late_quotient" } else { "quotient" }
+}
+
 impl Writer<'_, '_> {
     /// Computes the sums that the recurrences take.
     pub(super) fn sums(&mut self) {
@@ -84,22 +89,23 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Coefficient k of w = u/v from uₖ.
+    /// Coefficient k of w = u/v from uₖ, which may be known last.
     pub(super) fn quotient(
         &self,
-        numerator: TokenStream,
+        (numerator, is_late): (TokenStream, bool),
         [denominator, own]: [Place; 2],
         inverse: TokenStream,
     ) -> TokenStream {
+        let name = quotient(is_late);
         match self.sums.get(&Sum::Inner([denominator, own])) {
             Some(sum) => {
                 let (v, w) = (self.newest(denominator), self.first(own));
                 let arguments = [numerator, v, w, inverse, sum.clone()];
-                Self::call("quotient_from", &arguments)
+                Self::call(&format!("{name}_from"), &arguments)
             }
             None => {
                 let [v, w] = [denominator, own].map(|place| self.array(place));
-                Self::call("quotient", &[numerator, quote!(&#v), quote!(&#w), inverse])
+                Self::call(name, &[numerator, quote!(&#v), quote!(&#w), inverse])
             }
         }
     }

@@ -84,6 +84,16 @@ impl Writer<'_, '_> {
         quote!(dmm::series::four::<_, _, #lanes>(&series[#from..#to], #order, #lane))
     }
 
+    /// The coefficients of order k of series, as one vector.
+    fn row_of(&self, places: Lanes<Place>) -> TokenStream {
+        let values = places.map(|place| self.newest(place));
+        let texts = values.each_ref().map(TokenStream::to_string);
+        match self.vectors.get(&texts) {
+            Some(name) => quote!(#name),
+            None => quote!(dmm::series::Four::joined([#(#values),*])),
+        }
+    }
+
     /// Keeps the coefficients of order k in the tables.
     pub(super) fn keep_rows(&mut self) {
         let tables = self.tables;
@@ -91,7 +101,7 @@ impl Writer<'_, '_> {
             let [from, to] = [range.start, range.end].map(paths::count);
             for (number, places) in column.chunks(LANES).enumerate() {
                 let places = array::from_fn(|lane| places[lane % places.len()]);
-                let (row, lane) = (self.newest_of(places), paths::count(LANES * number));
+                let (row, lane) = (self.row_of(places), paths::count(LANES * number));
                 self.block.push(quote! {
                     let row = #row;
                     dmm::series::set_four(k, &mut series[#from..#to], #lane, row);

@@ -6,11 +6,13 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::States;
-use crate::algebra::Id;
+use crate::algebra::{Id, Math};
 use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
 use crate::emit::rust::paths;
-use crate::program::series::{Coefficient, Factor, LANES, Later, Place, Scaled, Sum, Tables};
+use crate::program::series::{
+    Coefficient, Factor, LANES, Later, Place, Scaled, Series, Sum, Tables,
+};
 
 /// Writes the coefficient of one node after the other.
 pub(super) struct Writer<'a, 'b> {
@@ -18,6 +20,8 @@ pub(super) struct Writer<'a, 'b> {
     pub(super) block: Block<'b>,
     pub(super) tables: &'b Tables,
     states: States,
+    /// How many operations follow on each other until the coefficients of nodes are known.
+    depths: BTreeMap<Id, usize>,
     /// The coefficients of order k that are known.
     newest: BTreeMap<Place, TokenStream>,
     /// The names of the halves of squares.
@@ -35,14 +39,16 @@ impl<'a, 'b> Writer<'a, 'b> {
     pub(super) fn new(
         scope: &'b Scope<'a>,
         states: States,
-        tables: &'b Tables,
+        series: &'b Series,
         block: Block<'b>,
     ) -> Self {
+        let depths = series.coefficients.iter().map(|one| (one.node, one.depth));
         Self {
             scope,
             block,
-            tables,
+            tables: &series.tables,
             states,
+            depths: depths.collect(),
             newest: BTreeMap::new(),
             halves: BTreeMap::new(),
             sums: BTreeMap::new(),
@@ -146,6 +152,15 @@ impl<'a, 'b> Writer<'a, 'b> {
         }
     }
 
+    /// Gives what is scaled more than once a name.
+    pub(super) fn name(&mut self, scaled: &Scaled) {
+        match scaled {
+            Scaled::Node(id) => self.block.name_value(*id),
+            Scaled::Multiple(_, of) | Scaled::Shifted { moving: of, .. } => self.name(of),
+            Scaled::Constant(_) | Scaled::Square { .. } => {}
+        }
+    }
+
     /// The coefficient of a node times `scale`.
     pub(super) fn scaled(&mut self, scaled: &Scaled, scale: TokenStream) -> TokenStream {
         match scaled {
@@ -153,10 +168,13 @@ impl<'a, 'b> Writer<'a, 'b> {
                 let value = self.fixed(*id);
                 Self::call("constant", &[product(&value, &scale)])
             }
-            Scaled::Node(id) => {
-                let value = self.value(*id);
-                product(&value, &scale)
-            }
+            Scaled::Node(id) => match self.terms(*id) {
+                Some(terms) => self.scaled_sum(terms, &scale),
+                None => {
+                    let value = self.value(*id);
+                    product(&value, &scale)
+                }
+            },
             Scaled::Multiple(factor, of) => {
                 let scale = self.multiplied(*factor, &scale);
                 self.scaled(of, scale)
@@ -177,6 +195,53 @@ impl<'a, 'b> Writer<'a, 'b> {
                 product(&quote!(#half), &scale)
             }
         }
+    }
+
+    /// The terms of a sum that has no value yet, and whether they are subtracted.
+    fn terms(&self, id: Id) -> Option<[(bool, Id); 2]> {
+        match self.scope.lowered.dag()[id] {
+            _ if self.block.has_value(id) => None,
+            Math::Add([a, b]) => Some([(false, a), (false, b)]),
+            Math::Sub([a, b]) => Some([(false, a), (true, b)]),
+            _ => None,
+        }
+    }
+
+    /// A sum times a scale: the term that is known last enters by one operation.
+    fn scaled_sum(&mut self, terms: [(bool, Id); 2], scale: &TokenStream) -> TokenStream {
+        let scalar = self.scope.scalar;
+        let mut terms = terms.map(|(is_negative, id)| self.multiple(id, minus(is_negative, scale)));
+        terms.sort_by_key(|(id, _)| self.depths.get(id).copied());
+        let [(first, scale), (last, factor)] = terms;
+        let first = product(&self.value(first), &scale);
+        let last = self.value(last);
+        quote!(#scalar::fused(#factor, #last, #first))
+    }
+
+    /// The node that a node times a scale is a multiple of, as long as there is no value on the way, and
+    /// the factor.
+    fn multiple(&mut self, mut id: Id, mut scale: TokenStream) -> (Id, TokenStream) {
+        let lowered = self.scope.lowered;
+        let mut factors = Vec::new();
+        while !self.block.has_value(id) {
+            id = match lowered.dag()[id] {
+                Math::Neg(u) => {
+                    scale = minus(true, &scale);
+                    u
+                }
+                Math::Mul([c, u]) | Math::Mul([u, c]) if lowered.is_fixed(c) => {
+                    factors.push(self.fixed(c));
+                    u
+                }
+                _ => break,
+            };
+        }
+        let factors = factors.into_iter().reduce(|all, one| product(&all, &one));
+        let scale = match factors {
+            Some(factors) => product(&factors, &scale),
+            None => scale,
+        };
+        (id, scale)
     }
 
     /// Half of the square `node` of the series at `of`, under a name.
