@@ -20,11 +20,7 @@ pub(crate) fn products<S: Copy, const W: usize>(
         let mut some = [zero; COLUMNS];
         // in the order of `for_rows`; what is passed to that is compiled without the instructions of lanes
         for place in 0..rows {
-            let row = match rows - place {
-                1 => 0,
-                2 => rows - 1,
-                _ => place + 1,
-            };
+            let row = row_at(place, rows);
             let (a, b) = (&a[row], &b[rows - 1 - row]);
             for (column, sum) in some.iter_mut().enumerate() {
                 *sum = fused(a[at + column], b[at + column], *sum);
@@ -74,22 +70,40 @@ fn vectors<const W: usize, const V: usize>(a: &[f64], b: &[f64], at: usize, sums
     }
 }
 
-/// Goes through the rows of a, and those of b the other way round. The first and the last come at the end:
-/// one of the two was written last, by parts, and can be read as a whole after a while.
+/// Goes through the rows of a, and those of b the other way round, from the middle on: what was computed
+/// last enters last, and the sum of the others need not wait for it.
 #[inline(always)]
 fn for_rows<S, const W: usize>(a: &[S], b: &[S], mut each: impl FnMut(&[S; W], &[S; W])) {
     const { assert!(W.is_multiple_of(COLUMNS)) };
     let (a, b) = (a.as_chunks().0, b.as_chunks().0);
-    if let ([first, middle @ ..], [.., last]) = (a, b) {
-        if let ([middle @ .., last], [first, turned @ ..]) = (middle, b) {
-            let rows = middle.len();
-            let turned = &turned[..rows];
-            for row in 0..rows {
-                each(&middle[row], &turned[rows - 1 - row]);
-            }
-            each(last, first);
-        }
-        each(first, last);
+    let rows = a.len().min(b.len());
+    let (a, b, half) = (&a[..rows], &b[..rows], rows / 2);
+    if !rows.is_multiple_of(2) {
+        each(&a[half], &b[half]);
+    }
+    let (low_a, high_a) = (&a[..half], &a[rows - half..]);
+    let (low_b, high_b) = (&b[..half], &b[rows - half..]);
+    let high = high_a.iter().zip(low_b.iter().rev());
+    let low = low_a.iter().rev().zip(high_b);
+    for ((high_a, low_b), (low_a, high_b)) in high.zip(low) {
+        each(high_a, low_b);
+        each(low_a, high_b);
+    }
+}
+
+/// The row of a that comes at a place.
+#[inline(always)]
+fn row_at(place: usize, rows: usize) -> usize {
+    let single = rows % 2;
+    if place < single {
+        return rows / 2;
+    }
+    let pair = (place - single) / 2;
+    let low = rows / 2 - 1 - pair;
+    if (place - single).is_multiple_of(2) {
+        rows - 1 - low
+    } else {
+        low
     }
 }
 
