@@ -217,7 +217,8 @@ pub fn late_quotient_from<S: Arithmetic, K: Order>(
     if k.get() == 0 {
         return u * inverse;
     }
-    u.times_plus(inverse, (-v).times_plus(first, -sum) * inverse)
+    let rest = v.times_plus(-(first * inverse), -(sum * inverse));
+    u.times_plus(inverse, rest)
 }
 
 /// Coefficient k ≥ 1 of w = √u from uₖ, the one of w of order ⌊k/2⌋ and the [`half_sums`] of w;

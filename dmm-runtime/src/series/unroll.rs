@@ -120,24 +120,26 @@ impl Unroll for Straight {
     }
 }
 
-/// Straight-line code for all but the highest order in a build for a processor with vectors of four doubles
-/// and the fused operation, and a loop otherwise: what is larger than the cache of instructions is slower
+/// Straight-line code for orders up to MOST in a build for a processor with vectors of four doubles and the
+/// fused operation, and a loop otherwise: what comes near the size of the cache of instructions is slower
 /// than a loop, and without them straight-line code is four times as long.
 #[derive(Clone, Copy, Debug)]
-pub struct Mixed;
+pub struct Mixed<const MOST: usize>;
 
-impl Unroll for Mixed {
+impl<const MOST: usize> Unroll for Mixed<MOST> {
     const EXACT: bool = Rolled::EXACT;
 
     #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
-        match order {
-            #[cfg(all(target_feature = "avx2", target_feature = "fma"))]
-            12 => choice.with::<13, Straight>(),
-            #[cfg(all(target_feature = "avx2", target_feature = "fma"))]
-            18 => choice.with::<19, Straight>(),
-            _ => Rolled::choose(order, choice),
+        if cfg!(all(target_feature = "avx2", target_feature = "fma")) {
+            if const { MOST >= 12 } && order == 12 {
+                return choice.with::<13, Straight>();
+            }
+            if const { MOST >= 18 } && order == 18 {
+                return choice.with::<19, Straight>();
+            }
         }
+        Rolled::choose(order, choice)
     }
 
     #[inline(always)]

@@ -42,10 +42,14 @@ pub use tables::Tables;
 /// 0.53; three bodies (15) 0.89, 0.69, 0.61.
 const MOST_STRAIGHT: usize = 5;
 
-/// Straight-line code by tables up to so many recurrences, but for the highest order. Time of a step by it
-/// over that by a loop, at 12, 18 and 22 orders: double pendulum 0.87, 0.91, 0.97; chain of 4 masses (10)
-/// 0.75, 0.81, 0.96; of 8 (18) 0.83, 0.93, 1.3; three bodies 0.89, 0.99, 1.3; chain of 16 (34) 0.85, 1.23, 1.0.
-const MOST_MIXED: usize = 20;
+/// Straight-line code by tables for steps of 12 orders up to so many recurrences. Time of a step by it over
+/// that by a loop: double pendulum 0.87, chain of 4 masses (10) 0.75, of 8 (18) 0.83, three bodies 0.89. More
+/// of it comes near the size of the cache of instructions.
+const MOST_WITH_12: usize = 20;
+
+/// The same for 18 orders: double pendulum 0.91, chain of 4 masses 0.81, of 8 0.93, three bodies 0.99 but up to
+/// 1.8 where it lies at other addresses.
+const MOST_WITH_18: usize = 12;
 
 /// The recurrences of some roots.
 #[derive(Debug)]
@@ -77,9 +81,9 @@ pub struct Series {
 pub enum Sums {
     /// Each by itself, written out for every order.
     Straight,
-    /// Several together, in lanes of tables: written out for all orders of Taylor steps but the highest, and
-    /// by loops for that and for other schemes.
-    Mixed,
+    /// Several together, in lanes of tables: written out for Taylor steps of orders up to this, and by loops
+    /// for others.
+    Mixed(usize),
     /// Several together by loops.
     Rolled,
 }
@@ -89,8 +93,10 @@ impl Sums {
     fn of(recurrences: usize) -> Self {
         if recurrences <= MOST_STRAIGHT {
             Self::Straight
-        } else if recurrences <= MOST_MIXED {
-            Self::Mixed
+        } else if recurrences <= MOST_WITH_18 {
+            Self::Mixed(18)
+        } else if recurrences <= MOST_WITH_12 {
+            Self::Mixed(12)
         } else {
             Self::Rolled
         }

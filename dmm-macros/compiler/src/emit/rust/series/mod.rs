@@ -44,7 +44,10 @@ impl States {
 pub(super) fn unrolled(series: &Series) -> TokenStream {
     match series.sums {
         Sums::Straight => quote!(dmm::series::Straight),
-        Sums::Mixed => quote!(dmm::series::Mixed),
+        Sums::Mixed(most) => {
+            let most = paths::count(most);
+            quote!(dmm::series::Mixed<#most>)
+        }
         Sums::Rolled => quote!(dmm::series::Rolled),
     }
 }

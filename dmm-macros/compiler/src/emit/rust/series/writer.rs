@@ -171,7 +171,8 @@ impl<'a, 'b> Writer<'a, 'b> {
             Scaled::Node(id) => match self.terms(*id) {
                 Some(terms) => self.scaled_sum(terms, &scale),
                 None => {
-                    let value = self.value(*id);
+                    let (id, scale) = self.multiple(*id, scale);
+                    let value = self.value(id);
                     product(&value, &scale)
                 }
             },
@@ -218,12 +219,12 @@ impl<'a, 'b> Writer<'a, 'b> {
         quote!(#scalar::fused(#factor, #last, #first))
     }
 
-    /// The node that a node times a scale is a multiple of, as long as there is no value on the way, and
-    /// the factor.
+    /// The node that a node times a scale is a multiple of, and the factor, which nothing of order k is
+    /// needed for.
     fn multiple(&mut self, mut id: Id, mut scale: TokenStream) -> (Id, TokenStream) {
         let lowered = self.scope.lowered;
         let mut factors = Vec::new();
-        while !self.block.has_value(id) {
+        loop {
             id = match lowered.dag()[id] {
                 Math::Neg(u) => {
                     scale = minus(true, &scale);
