@@ -45,8 +45,11 @@ impl<S: Scalar, F: Dynamics<S, N, M>, const N: usize, const M: usize, const P: u
     #[inline(always)]
     fn advance<K: Order>(&mut self, k: K) {
         // Consecutive coefficients lie side by side, and LLVM would join their recurrences in vectors,
-        // which wait for the later one. It joins no stores across a fence, which is no instruction.
-        if K::IS_FIXED && const { size_of::<S>() == size_of::<f64>() } {
+        // which wait for the later one. It joins no stores across a fence, which is no instruction. Code
+        // that is apart would load after a fence what it has just stored.
+        if K::IS_FIXED
+            && const { size_of::<S>() == size_of::<f64>() && !is_apart::<F::Series<P>>() }
+        {
             compiler_fence(Ordering::Release);
         }
         self.dynamics.advance(k, self.t, self.series);
@@ -148,9 +151,12 @@ impl<S: Scalar, F: Dynamics<S, N, M>, const N: usize, const M: usize> Coefficien
 pub(crate) type GuardsUnrolled<S, F, const N: usize, const M: usize> =
     <<F as Dynamics<S, N, M>>::Guards as Guards<S, N>>::Unrolled;
 
-/// Of more bytes of coefficients the code is there once: what they are computed by is so much that it gains
-/// nothing by what goes before or follows.
-const MOST_INLINED: usize = 4096;
+/// Whether the code that computes these coefficients is there once, by a function of its own: it is so much
+/// that it gains nothing by what goes before or follows.
+const fn is_apart<Series>() -> bool {
+    const MOST_INLINED: usize = 4096;
+    size_of::<Series>() > MOST_INLINED
+}
 
 /// So many states are filled twice at no cost.
 const FEW: usize = 8;
@@ -237,7 +243,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     /// The solution's coefficients at (t, x).
     #[inline(always)]
     pub(crate) fn expand(&mut self, dynamics: &F, t: f64, x: &Vector<f64, N>) {
-        if const { size_of::<F::Series<P>>() > MOST_INLINED } {
+        if const { is_apart::<F::Series<P>>() } {
             self.expand_apart(dynamics, t, x);
         } else {
             self.expand_here(dynamics, t, x);
