@@ -16,15 +16,25 @@ pub(crate) fn products<S: Copy, const W: usize>(
     let mut sums = [zero; W];
     let (a, b) = (a.as_chunks::<W>().0, b.as_chunks::<W>().0);
     let rows = a.len().min(b.len());
+    let half = rows / 2;
     for at in (0..W).step_by(COLUMNS) {
         let mut some = [zero; COLUMNS];
         // in the order of `for_rows`; what is passed to that is compiled without the instructions of lanes
-        for place in 0..rows {
-            let row = row_at(place, rows);
-            let (a, b) = (&a[row], &b[rows - 1 - row]);
-            for (column, sum) in some.iter_mut().enumerate() {
-                *sum = fused(a[at + column], b[at + column], *sum);
-            }
+        macro_rules! add {
+            ($row:expr) => {
+                let row = $row;
+                let (a, b) = (&a[row], &b[rows - 1 - row]);
+                for (column, sum) in some.iter_mut().enumerate() {
+                    *sum = fused(a[at + column], b[at + column], *sum);
+                }
+            };
+        }
+        if !rows.is_multiple_of(2) {
+            add!(half);
+        }
+        for low in (0..half).rev() {
+            add!(rows - 1 - low);
+            add!(low);
         }
         sums[at..at + COLUMNS].copy_from_slice(&some);
     }
@@ -88,22 +98,6 @@ fn for_rows<S, const W: usize>(a: &[S], b: &[S], mut each: impl FnMut(&[S; W], &
     for ((high_a, low_b), (low_a, high_b)) in high.zip(low) {
         each(high_a, low_b);
         each(low_a, high_b);
-    }
-}
-
-/// The row of a that comes at a place.
-#[inline(always)]
-fn row_at(place: usize, rows: usize) -> usize {
-    let single = rows % 2;
-    if place < single {
-        return rows / 2;
-    }
-    let pair = (place - single) / 2;
-    let low = rows / 2 - 1 - pair;
-    if (place - single).is_multiple_of(2) {
-        rows - 1 - low
-    } else {
-        low
     }
 }
 
