@@ -122,24 +122,26 @@ impl Unroll for Straight {
 
 /// Straight-line code for orders up to MOST in a build for a processor with vectors of four doubles and the
 /// fused operation, and a loop otherwise: what comes near the size of the cache of instructions is slower
-/// than a loop, and without them straight-line code is four times as long.
+/// than a loop, and without them straight-line code is four times as long. There is room for no more
+/// coefficients than the order has.
 #[derive(Clone, Copy, Debug)]
 pub struct Mixed<const MOST: usize>;
+
+/// Whether straight-line code is short.
+const HAS_VECTORS: bool = cfg!(all(target_feature = "avx2", target_feature = "fma"));
 
 impl<const MOST: usize> Unroll for Mixed<MOST> {
     const EXACT: bool = Rolled::EXACT;
 
     #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
-        if cfg!(all(target_feature = "avx2", target_feature = "fma")) {
-            if const { MOST >= 12 } && order == 12 {
-                return choice.with::<13, Straight>();
-            }
-            if const { MOST >= 18 } && order == 18 {
-                return choice.with::<19, Straight>();
-            }
+        match order {
+            12 if const { HAS_VECTORS && MOST >= 12 } => choice.with::<13, Straight>(),
+            12 => choice.with::<13, Rolled>(),
+            18 if const { HAS_VECTORS && MOST >= 18 } => choice.with::<19, Straight>(),
+            18 => choice.with::<19, Rolled>(),
+            _ => choice.with::<MOST_COEFFICIENTS, Rolled>(),
         }
-        Rolled::choose(order, choice)
     }
 
     #[inline(always)]

@@ -81,11 +81,9 @@ pub struct Series {
 pub enum Sums {
     /// Each by itself, written out for every order.
     Straight,
-    /// Several together, in lanes of tables: written out for Taylor steps of orders up to this, and by loops
-    /// for others.
+    /// Several together, in lanes of tables: written out for Taylor steps of orders up to this, if there are
+    /// such, and by loops for others.
     Mixed(usize),
-    /// Several together by loops.
-    Rolled,
 }
 
 impl Sums {
@@ -98,7 +96,7 @@ impl Sums {
         } else if recurrences <= MOST_WITH_12 {
             Self::Mixed(12)
         } else {
-            Self::Rolled
+            Self::Mixed(0)
         }
     }
 }

@@ -48,7 +48,6 @@ pub(super) fn unrolled(series: &Series) -> TokenStream {
             let most = paths::count(most);
             quote!(dmm::series::Mixed<#most>)
         }
-        Sums::Rolled => quote!(dmm::series::Rolled),
     }
 }
 
