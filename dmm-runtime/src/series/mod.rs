@@ -326,18 +326,6 @@ pub fn quotient<S: Scalar, K: Order, const P: usize>(
     quotient_from(k, u, v[k.get()], w[0], inverse, inner(k, v, w))
 }
 
-/// The same where uₖ is known last.
-#[inline(always)]
-pub fn late_quotient<S: Scalar, K: Order, const P: usize>(
-    k: K,
-    u: S,
-    v: &[S; P],
-    w: &[S; P],
-    inverse: S,
-) -> S {
-    late_quotient_from(k, u, v[k.get()], w[0], inverse, inner(k, v, w))
-}
-
 /// Coefficient k ≥ 1 of w = √u from uₖ; `inverse` is 1/(2w₀).
 #[inline(always)]
 pub fn square_root<S: Scalar, K: Order, const P: usize>(k: K, u: S, w: &[S; P], inverse: S) -> S {

@@ -108,7 +108,7 @@ impl<'a> Choice<'a> {
                 denominator: self.node(b),
                 own: self.node(id),
                 inverse: place(Slot::Inverse(id)),
-                is_late: self.depth(a) >= self.depth(b),
+                is_late: self.slots.sums != Sums::Straight && self.depth(a) >= self.depth(b),
             },
             Math::Pow([a, b]) if !self.is_moving(b) => Recurrence::Power {
                 base: self.node(a),

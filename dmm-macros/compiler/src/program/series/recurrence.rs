@@ -34,7 +34,7 @@ pub enum Recurrence {
         own: Place,
         /// 1/v at order zero
         inverse: Place,
-        /// Whether u is known last.
+        /// Whether u is known last, where sums run together.
         is_late: bool,
     },
     /// w = u^c, c constant in time

@@ -7,7 +7,7 @@ use egg::Language;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::sums::quotient;
+use super::sums::quotient_from;
 use super::vectors::Lanes;
 use super::writer::{Writer, minus};
 use crate::algebra::{Id, Math};
@@ -151,8 +151,8 @@ impl Writer<'_, '_> {
                 let values = denominator.map(|place| self.newest(place));
                 let inverse = self.inverses(inverse, values);
                 let (first, sum) = (self.row_from(1, lane, &at_zero), self.inner_sums_from(lane));
-                let name = quotient(is_late.contains(&true));
-                Self::call(&format!("{name}_from"), &[u, v, first, inverse, sum])
+                let name = quotient_from(is_late.contains(&true));
+                Self::call(name, &[u, v, first, inverse, sum])
             }
             Recurrence::Power { .. } => return self.powers(pack),
             Recurrence::SquareRoot { .. } => {

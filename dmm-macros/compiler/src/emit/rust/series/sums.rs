@@ -12,8 +12,12 @@ use crate::emit::rust::paths;
 use crate::program::series::{Place, Sum};
 
 /// The function of a quotient whose numerator is known last or not.
-pub(super) fn quotient(is_late: bool) -> &'static str {
-    if is_late { "late_quotient" } else { "quotient" }
+pub(super) fn quotient_from(is_late: bool) -> &'static str {
+    if is_late {
+        "late_quotient_from"
+    } else {
+        "quotient_from"
+    }
 }
 
 impl Writer<'_, '_> {
@@ -96,16 +100,15 @@ impl Writer<'_, '_> {
         [denominator, own]: [Place; 2],
         inverse: TokenStream,
     ) -> TokenStream {
-        let name = quotient(is_late);
         match self.sums.get(&Sum::Inner([denominator, own])) {
             Some(sum) => {
                 let (v, w) = (self.newest(denominator), self.first(own));
                 let arguments = [numerator, v, w, inverse, sum.clone()];
-                Self::call(&format!("{name}_from"), &arguments)
+                Self::call(quotient_from(is_late), &arguments)
             }
             None => {
                 let [v, w] = [denominator, own].map(|place| self.array(place));
-                Self::call(name, &[numerator, quote!(&#v), quote!(&#w), inverse])
+                Self::call("quotient", &[numerator, quote!(&#v), quote!(&#w), inverse])
             }
         }
     }
