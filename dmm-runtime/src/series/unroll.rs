@@ -24,31 +24,13 @@ pub trait Choice {
 pub trait Unroll {
     /// Whether there are P coefficients for the order P − 1 only, and not for lower ones too; and
     /// for the unit of time 1 only.
-    const EXACT: bool;
+    const EXACT: bool = false;
 
     /// Does `choice` with room for the coefficients up to `order`.
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output;
 
     /// Advances through the orders k with FROM ≤ k and k + LESS < TO; `end` takes the place of
-    /// TO where it is lower.
-    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
-        series: &mut C,
-        end: usize,
-    );
-}
-
-/// A loop: for systems whose straight-line code would be too large.
-#[derive(Clone, Copy, Debug)]
-pub struct Rolled;
-
-impl Unroll for Rolled {
-    const EXACT: bool = false;
-
-    #[inline(always)]
-    fn choose<C: Choice>(_order: usize, choice: C) -> C::Output {
-        choice.with::<MOST_COEFFICIENTS, Self>()
-    }
-
+    /// TO where it is lower. In a loop, unless said otherwise.
     #[inline(always)]
     fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
         series: &mut C,
@@ -66,6 +48,17 @@ impl Unroll for Rolled {
     }
 }
 
+/// A loop: for systems whose straight-line code would be too large.
+#[derive(Clone, Copy, Debug)]
+pub struct Rolled;
+
+impl Unroll for Rolled {
+    #[inline(always)]
+    fn choose<C: Choice>(_order: usize, choice: C) -> C::Output {
+        choice.with::<MOST_COEFFICIENTS, Self>()
+    }
+}
+
 /// Straight-line code for each of a few orders, more than twice as fast; a loop where nothing
 /// is optimised.
 #[derive(Clone, Copy, Debug)]
@@ -73,17 +66,8 @@ pub struct Straight;
 
 #[cfg(debug_assertions)]
 impl Unroll for Straight {
-    const EXACT: bool = Rolled::EXACT;
-
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
         Rolled::choose(order, choice)
-    }
-
-    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
-        series: &mut C,
-        end: usize,
-    ) {
-        Rolled::run::<FROM, TO, LESS, C>(series, end);
     }
 }
 
@@ -131,8 +115,6 @@ pub struct Mixed<const MOST: usize>;
 const HAS_VECTORS: bool = cfg!(all(target_feature = "avx2", target_feature = "fma"));
 
 impl<const MOST: usize> Unroll for Mixed<MOST> {
-    const EXACT: bool = Rolled::EXACT;
-
     #[inline(always)]
     fn choose<C: Choice>(order: usize, choice: C) -> C::Output {
         match order {
@@ -140,15 +122,7 @@ impl<const MOST: usize> Unroll for Mixed<MOST> {
             12 => choice.with::<13, Rolled>(),
             18 if const { HAS_VECTORS && MOST >= 18 } => choice.with::<19, Straight>(),
             18 => choice.with::<19, Rolled>(),
-            _ => choice.with::<MOST_COEFFICIENTS, Rolled>(),
+            _ => Rolled::choose(order, choice),
         }
-    }
-
-    #[inline(always)]
-    fn run<const FROM: usize, const TO: usize, const LESS: usize, C: Coefficients>(
-        series: &mut C,
-        end: usize,
-    ) {
-        Rolled::run::<FROM, TO, LESS, C>(series, end);
     }
 }

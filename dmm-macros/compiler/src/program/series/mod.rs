@@ -32,7 +32,7 @@ use super::lower::Lowered;
 use crate::algebra::{Id, Name};
 pub use packs::{LANES, fused_term};
 pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted, Sum};
-pub use scaled::{Factor, Later, Scaled};
+pub use scaled::{Factor, Later, Scaled, multiple};
 pub(super) use shortest::for_series;
 pub use tables::Tables;
 

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use super::super::lower::Lowered;
 use super::choice::Choice;
 use super::recurrence::{Place, Shifted, Sum};
 use crate::algebra::{Id, Math};
@@ -59,6 +60,18 @@ pub enum Factor {
     Node(Id),
 }
 
+/// The operand and the factor of a node that is a multiple of another one.
+pub fn multiple(lowered: &Lowered, id: Id) -> Option<(Id, Factor)> {
+    let is_moving = |id: Id| !lowered.is_fixed(id);
+    match lowered.dag()[id] {
+        Math::Mul([c, u]) | Math::Mul([u, c]) if !is_moving(c) && is_moving(u) => {
+            Some((u, Factor::Node(c)))
+        }
+        Math::Neg(u) if is_moving(u) => Some((u, Factor::Minus)),
+        _ => None,
+    }
+}
+
 /// Of a root that is a multiple of a state, ẋᵢ = c xⱼ, coefficient k + 2 of xᵢ: from what the new
 /// coefficient of xⱼ is made from, so that the chain of recurrences does not pass through xⱼ.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -94,15 +107,8 @@ impl<'a> Scaling<'a> {
         scaling
     }
 
-    /// The operand and the factor of a node that is a multiple of another one.
     fn multiple(&self, id: Id) -> Option<(Id, Factor)> {
-        let is_moving = |id: Id| self.choice.is_moving(id);
-        match self.choice.lowered.dag()[id] {
-            Math::Mul([c, u]) if !is_moving(c) && is_moving(u) => Some((u, Factor::Node(c))),
-            Math::Mul([u, c]) if !is_moving(c) && is_moving(u) => Some((u, Factor::Node(c))),
-            Math::Neg(u) if is_moving(u) => Some((u, Factor::Minus)),
-            _ => None,
-        }
+        multiple(self.choice.lowered, id)
     }
 
     /// u of a square u².

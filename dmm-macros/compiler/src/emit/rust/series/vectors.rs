@@ -34,18 +34,29 @@ impl Writer<'_, '_> {
         elements
     }
 
-    /// The vector of some values: one that has a name, if it has these.
-    pub(super) fn four(&self, values: Lanes<TokenStream>) -> TokenStream {
+    /// The vector of some values: one that has a name, if it has these, else what `new` makes.
+    fn four_by(
+        &self,
+        values: &Lanes<TokenStream>,
+        new: impl FnOnce(&Lanes<String>) -> TokenStream,
+    ) -> TokenStream {
         let texts = values.each_ref().map(TokenStream::to_string);
-        let [first, rest @ ..] = &texts;
         match self.vectors.get(&texts) {
             Some(name) => quote!(#name),
-            None if rest.iter().all(|other| other == first) => {
-                let [value, ..] = values;
-                quote!(dmm::series::Four::all(#value))
-            }
-            None => quote!(dmm::series::Four([#(#values),*])),
+            None => new(&texts),
         }
+    }
+
+    /// The vector of some values.
+    pub(super) fn four(&self, values: Lanes<TokenStream>) -> TokenStream {
+        self.four_by(&values, |[first, rest @ ..]| {
+            if rest.iter().all(|other| other == first) {
+                let [value, ..] = &values;
+                quote!(dmm::series::Four::all(#value))
+            } else {
+                quote!(dmm::series::Four([#(#values),*]))
+            }
+        })
     }
 
     pub(super) fn values(&mut self, ids: Lanes<Id>) -> TokenStream {
@@ -87,11 +98,10 @@ impl Writer<'_, '_> {
     /// The coefficients of order k of series, as one vector.
     fn row_of(&self, places: Lanes<Place>) -> TokenStream {
         let values = places.map(|place| self.newest(place));
-        let texts = values.each_ref().map(TokenStream::to_string);
-        match self.vectors.get(&texts) {
-            Some(name) => quote!(#name),
-            None => quote!(dmm::series::Four::joined([#(#values),*])),
-        }
+        self.four_by(
+            &values,
+            |_| quote!(dmm::series::Four::joined([#(#values),*])),
+        )
     }
 
     /// Keeps the coefficients of order k in the tables.

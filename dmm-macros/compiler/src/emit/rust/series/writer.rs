@@ -11,7 +11,7 @@ use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
 use crate::emit::rust::paths;
 use crate::program::series::{
-    Coefficient, Factor, LANES, Later, Place, Scaled, Series, Sum, Tables,
+    Coefficient, Factor, LANES, Later, Place, Scaled, Series, Sum, Tables, multiple,
 };
 
 /// Writes the coefficient of one node after the other.
@@ -222,20 +222,13 @@ impl<'a, 'b> Writer<'a, 'b> {
     /// The node that a node times a scale is a multiple of, and the factor, which nothing of order k is
     /// needed for.
     fn multiple(&mut self, mut id: Id, mut scale: TokenStream) -> (Id, TokenStream) {
-        let lowered = self.scope.lowered;
         let mut factors = Vec::new();
-        loop {
-            id = match lowered.dag()[id] {
-                Math::Neg(u) => {
-                    scale = minus(true, &scale);
-                    u
-                }
-                Math::Mul([c, u]) | Math::Mul([u, c]) if lowered.is_fixed(c) => {
-                    factors.push(self.fixed(c));
-                    u
-                }
-                _ => break,
-            };
+        while let Some((of, factor)) = multiple(self.scope.lowered, id) {
+            match factor {
+                Factor::Minus => scale = minus(true, &scale),
+                Factor::Node(c) => factors.push(self.fixed(c)),
+            }
+            id = of;
         }
         let factors = factors.into_iter().reduce(|all, one| product(&all, &one));
         let scale = match factors {
