@@ -1,7 +1,8 @@
 //! Pairs of doubles.
 //!
 //! u = high + low with |low| ≤ ulp(high)/2: about 104 bits (Joldes, Muller & Popescu 2017, ACM
-//! Trans. Math. Softw. 44(2), algorithms 1, 2, 6, 11 and 17; root by long division).
+//! Trans. Math. Softw. 44(2), algorithms 1, 2, 5, 11 and 17; root by long division). The error of a sum is relative to the
+//! larger term, like those of the terms.
 //! Levels of conserved quantities and the propagators of exact flows are such pairs, and so are
 //! the sums in a divided difference whose rounding errors are put back.
 
@@ -48,13 +49,6 @@ impl<S: Masked> Pair<S> {
     pub(crate) fn sum(a: S, b: S) -> Self {
         let (high, low) = two_sum(a, b);
         Self { high, low }
-    }
-
-    /// The sum in fewer operations than [`Add`]: the error is relative to the larger term.
-    #[inline(always)]
-    pub(crate) fn plus(self, other: Self) -> Self {
-        let sum = Self::sum(self.high, other.high);
-        Self::fast_sum(sum.high, sum.low + (self.low + other.low))
     }
 
     /// The product with a scalar.
@@ -163,10 +157,8 @@ impl<S: Masked> Add for Pair<S> {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let high = Self::sum(self.high, other.high);
-        let low = Self::sum(self.low, other.low);
-        let sum = Self::fast_sum(high.high, high.low + low.high);
-        Self::fast_sum(sum.high, low.low + sum.low).settled()
+        let sum = Self::sum(self.high, other.high);
+        Self::fast_sum(sum.high, sum.low + (self.low + other.low)).settled()
     }
 }
 

@@ -5,7 +5,7 @@
 //! products have about 104 bits, the elementary functions about 100. A divided difference has
 //! those of a double: it is no part of ψ or g.
 //!
-//! The functions of an argument that is not small are reduced: eᵘ = 2ᵏ eʳ, sin and cos by
+//! The functions of an argument that is not small are reduced: eᵘ = 2^(k/8) eʳ, sin and cos by
 //! multiples of π/2 (up to |u| of 2²⁰ or so; beyond it digits of u are lost like those of π).
 //! Inverse functions take one step of Newton's method from that of a double, whose error is
 //! squared by it.
@@ -20,65 +20,93 @@ use crate::arithmetic::masked::{Mask, Masked};
 /// What ln 2 as a double lacks: the next 53 bits.
 const LN_2_LOW: f64 = 2.319_046_813_846_299_6e-17;
 
-/// The coefficients of a power series that are pairs.
-const PAIRS: usize = 17;
-/// All of them: |u| ≤ π/4 to the 29th over 29! is 10⁻³⁴.
+/// 2^(j/8) for j from 0 to 7.
+const EIGHTHS: [Double; 8] = [
+    Double::new(1.0, 0.0),
+    Double::new(1.0905077326652577, -3.046782079812471e-17),
+    Double::new(1.189207115002721, 3.982015231465646e-17),
+    Double::new(1.2968395546510096, 2.5382502794888315e-17),
+    Double::new(1.4142135623730951, -9.667293313452913e-17),
+    Double::new(1.5422108254079407, 7.949834809697621e-17),
+    Double::new(1.681792830507429, 8.199010020581497e-17),
+    Double::new(1.8340080864093424, 3.283107224245627e-17),
+];
+
+/// The coefficients of a power series: |u| ≤ π/4 to the 29th over 29! is 10⁻³⁴.
 const TERMS: usize = 29;
 
-/// 1/n!; of the first ones with what the double lacks. (n! is a double up to 22!.)
-const INVERSE_FACTORIALS: [(f64, f64); TERMS] = {
-    let mut table = [(1.0, 0.0); TERMS];
+/// 1/n!, with what the double lacks. (n! is a double up to 22!.)
+const INVERSE_FACTORIALS: [Double; TERMS] = {
+    let mut table = [Double::ONE; TERMS];
     let mut factorial = 1.0;
     let mut n = 1;
     while n < TERMS {
         factorial *= n as f64;
-        let inverse = Double::inverse_of(factorial);
-        let low = if n < PAIRS { inverse.low } else { 0.0 };
-        table[n] = (inverse.high, low);
+        table[n] = Double::inverse_of(factorial);
         n += 1;
     }
     table
 };
 
-/// Every other 1/n! of the doubles, the even ones from `first` = 0 on, the odd ones from 1 on.
-const fn trailing(first: usize) -> [f64; (TERMS - PAIRS) / 2] {
-    let mut coefficients = [0.0; (TERMS - PAIRS) / 2];
+/// COUNT of every other 1/n! as doubles, from `first` on.
+const fn every_other<const COUNT: usize>(first: usize) -> [f64; COUNT] {
+    let mut coefficients = [0.0; COUNT];
     let mut k = 0;
-    while k < coefficients.len() {
-        coefficients[k] = INVERSE_FACTORIALS[first + PAIRS - 1 + 2 * k].0;
+    while k < COUNT {
+        coefficients[k] = INVERSE_FACTORIALS[first + 2 * k].high;
         k += 1;
     }
     coefficients
 }
 
-impl Double {
-    /// Σ xᵏ/(first + 2k)! for |x| ≤ 1, over as many pairs and then doubles as there are.
+/// Σ xᵏ/(FIRST + 2k)!, FIRST being 0 or 1.
+struct EveryOther<const FIRST: usize>;
+
+impl<const FIRST: usize> EveryOther<FIRST> {
+    /// The sum for |x| ≤ 1, with as many terms as count.
+    fn sum(x: Double) -> Double {
+        /// A quarter of ln 2/4, squared, is below it.
+        const SMALL: f64 = 2e-3;
+        /// The square of it is no part of the sum.
+        const SMALLEST: f64 = 1e-17;
+        let size = x.high.abs();
+        if size <= SMALLEST {
+            Self::by_pairs::<1, 1>(x)
+        } else if size <= SMALL {
+            Self::by_pairs::<5, 4>(x)
+        } else {
+            Self::by_pairs::<8, 6>(x)
+        }
+    }
+
+    /// Over so many coefficients that are pairs and then so many doubles.
     ///
     /// By Horner's scheme in doubles, whose rounding errors make a polynomial that is evaluated
     /// beside it (Graillat, Langlois & Louvet, Compensated Horner scheme, 2005, algorithm 8): no sum
     /// waits for another one to be put in order.
-    fn every_other(first: usize, x: Self) -> Self {
-        const EVEN: [f64; (TERMS - PAIRS) / 2] = trailing(0);
-        const ODD: [f64; (TERMS - PAIRS) / 2] = trailing(1);
-        let doubles = if first == 0 { &EVEN } else { &ODD };
-        let mut sum = Self::from(power_series(x.high, doubles));
-        for k in (0..PAIRS / 2).rev() {
-            let (high, low) = INVERSE_FACTORIALS[first + 2 * k];
-            let product = Self::product(sum.high, x.high);
+    #[inline]
+    fn by_pairs<const PAIRS: usize, const DOUBLES: usize>(x: Double) -> Double {
+        let doubles = const { &every_other::<DOUBLES>(FIRST + 2 * PAIRS) };
+        let mut sum = Double::from(power_series(x.high, doubles));
+        for k in (0..PAIRS).rev() {
+            let Double { high, low } = INVERSE_FACTORIALS[FIRST + 2 * k];
+            let product = Double::product(sum.high, x.high);
             let cross = sum.high.fused(x.low, sum.low * x.high);
             // the coefficient is at least twice as large as the product
-            let next = Self::fast_sum(high, product.high);
-            sum = Self::new(next.high, (product.low + cross) + (next.low + low));
+            let next = Double::fast_sum(high, product.high);
+            sum = Double::new(next.high, (product.low + cross) + (next.low + low));
         }
-        Self::fast_sum(sum.high, sum.low)
+        Double::fast_sum(sum.high, sum.low)
     }
+}
 
+impl Double {
     /// cosh r and sinh r, for |r| ≤ 1
     fn hyperbolic(self) -> (Self, Self) {
         let square = self * self;
         (
-            Self::every_other(0, square),
-            self * Self::every_other(1, square),
+            EveryOther::<0>::sum(square),
+            self * EveryOther::<1>::sum(square),
         )
     }
 
@@ -92,8 +120,8 @@ impl Double {
         };
         let square = -(r * r);
         let (c, s) = (
-            Self::every_other(0, square),
-            r * Self::every_other(1, square),
+            EveryOther::<0>::sum(square),
+            r * EveryOther::<1>::sum(square),
         );
         match turns.rem_euclid(4.0) {
             1.0 => (-s, c),
@@ -103,25 +131,28 @@ impl Double {
         }
     }
 
-    /// u·2ᵏ
-    fn times_power_of_two(self, k: f64) -> Self {
-        // in two factors, each of which is a double
-        let half = (0.5 * k).trunc();
-        let (a, b) = (half.exp2(), (k - half).exp2());
-        Self::new(self.high * a * b, self.low * a * b)
+    /// u·2ᵏ for |k| ≤ 1022
+    fn times_power_of_two(self, k: i32) -> Self {
+        const BIAS: i32 = 1023;
+        const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+        let power = f64::from_bits(((k + BIAS) as u64) << MANTISSA);
+        Self::new(self.high * power, self.low * power)
     }
 }
 
 /// The elementary functions, for some of which others are named.
 impl Double {
     fn exp(self) -> Self {
-        let k = (self.high * LOG2_E).round();
-        if k.is_nan() || k.abs() >= 1020.0 {
+        const EIGHTH: Double = Double::new(0.125 * LN_2, 0.125 * LN_2_LOW);
+        let eighths = (self.high * (8.0 * LOG2_E)).round();
+        if eighths.is_nan() || eighths.abs() >= 8.0 * 1020.0 {
             return Self::from(self.high.exp());
         }
-        let r = self - Self::from(k) * Self::new(LN_2, LN_2_LOW);
+        let r = self - Self::from(eighths) * EIGHTH;
         let (c, s) = r.hyperbolic();
-        (c + s).times_power_of_two(k)
+        let whole = eighths as i32;
+        let part = EIGHTHS[whole.rem_euclid(8) as usize];
+        ((c + s) * part).times_power_of_two(whole.div_euclid(8))
     }
 
     fn ln(self) -> Self {
@@ -289,10 +320,10 @@ mod tests {
         assert!(difference <= 1e-29 * size, "{what}: {a:?} {b:?}");
     }
 
-    /// Arguments that are no doubles.
-    fn samples() -> impl Iterator<Item = Double> {
+    /// Arguments that are no doubles, up to a few times a size.
+    fn samples(size: f64) -> impl Iterator<Item = Double> {
         let thirds = (-20..=20).filter(|&k| k != 0);
-        thirds.map(|k| Double::from(0.37 * f64::from(k)) / Double::from(3.0))
+        thirds.map(move |k| Double::from(0.37 * size * f64::from(k)) / Double::from(3.0))
     }
 
     #[test]
@@ -320,7 +351,8 @@ mod tests {
     #[test]
     fn identities_hold_to_thirty_digits() {
         let one = Double::from(1.0);
-        for u in samples() {
+        let sizes = [1.0, 0.1, 1e-3, 1e-9, 1e-20];
+        for u in sizes.into_iter().flat_map(samples) {
             let (s, c) = (Scalar::sin(u), Scalar::cos(u));
             assert_close(s * s + c * c, one, "sin² + cos²");
             let (sh, ch) = (Scalar::sinh(u), Scalar::cosh(u));
@@ -338,7 +370,7 @@ mod tests {
 
     #[test]
     fn inverse_functions_are_inverse() {
-        for u in samples() {
+        for u in samples(1.0) {
             assert_close(Scalar::tan(Scalar::atan(u)), u, "tan atan");
             let v = Double::from(0.3) * u;
             if v.high.abs() < 0.9 {

@@ -132,7 +132,7 @@ impl<const N: usize> Propagator<N> {
         let row = |row: &[Double; N], column: &dyn Fn(usize) -> Double, start: Double| {
             let terms = row.iter().enumerate();
             let terms = terms.filter(|(_, entry)| entry.high != 0.0);
-            terms.fold(start, |sum, (k, entry)| sum.plus(*entry * column(k)))
+            terms.fold(start, |sum, (k, entry)| sum + *entry * column(k))
         };
         let mut whole = Self {
             matrix: [[Double::default(); N]; N],
@@ -156,9 +156,7 @@ impl<const N: usize> Propagator<N> {
     pub(super) fn transposed(&self, row: &[Double; N]) -> [Double; N] {
         std::array::from_fn(|j| {
             let terms = row.iter().zip(&self.matrix);
-            terms.fold(Double::default(), |sum, (entry, own)| {
-                sum.plus(*entry * own[j])
-            })
+            terms.fold(Double::default(), |sum, (entry, own)| sum + *entry * own[j])
         })
     }
 
@@ -225,7 +223,7 @@ fn product<const N: usize>(a: &Rows<f64, N>, m: &Rows<Double, N>, c: Double) -> 
         for (&entry, other) in row.iter().zip(m) {
             if entry != 0.0 {
                 for (target, other) in target.iter_mut().zip(other) {
-                    *target = target.plus(other.scaled(entry));
+                    *target += other.scaled(entry);
                 }
             }
         }
@@ -240,9 +238,7 @@ fn product<const N: usize>(a: &Rows<f64, N>, m: &Rows<Double, N>, c: Double) -> 
 fn image<const N: usize>(a: &Rows<f64, N>, u: &[Double; N], c: Double) -> [Double; N] {
     std::array::from_fn(|i| {
         let terms = a[i].iter().zip(u);
-        let sum = terms.fold(Double::default(), |sum, (&entry, u)| {
-            sum.plus(u.scaled(entry))
-        });
+        let sum = terms.fold(Double::default(), |sum, (&entry, u)| sum + u.scaled(entry));
         sum * c
     })
 }
@@ -251,7 +247,7 @@ fn image<const N: usize>(a: &Rows<f64, N>, u: &[Double; N], c: Double) -> [Doubl
 fn add(sum: &mut [Double], term: &[Double]) -> f64 {
     let (mut of_sum, mut of_term) = (0.0f64, 0.0f64);
     for (sum, term) in sum.iter_mut().zip(term) {
-        *sum = sum.plus(*term);
+        *sum += *term;
         of_sum = of_sum.max(sum.high.abs());
         of_term = of_term.max(term.high.abs());
     }

@@ -59,7 +59,7 @@ impl<const N: usize> Short<N> {
                     high: at.x[j],
                     low: at.remainder[j],
                 };
-                sum = sum.plus(x.scaled(entry));
+                sum += x.scaled(entry);
             }
             short.field[i] = sum;
         }
@@ -90,7 +90,7 @@ impl<const N: usize> Short<N> {
                 high: state.x[i],
                 low: state.remainder[i],
             };
-            let sum = x.plus(first).plus(Double::from(rest));
+            let sum = x + first + Double::from(rest);
             (state.x[i], state.remainder[i]) = (sum.high, sum.low);
         }
         state

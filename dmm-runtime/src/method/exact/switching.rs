@@ -63,7 +63,7 @@ impl<const N: usize> StepSizes<N> {
             std::array::from_fn(|j| {
                 let terms = row.iter().zip(a);
                 terms.fold(Double::default(), |sum, (entry, own)| {
-                    sum.plus(entry.scaled(own[j]))
+                    sum + entry.scaled(own[j])
                 })
             })
         };
