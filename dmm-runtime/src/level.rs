@@ -37,7 +37,7 @@ use crate::arithmetic::{MinimalNorm, State, Time, filled};
 use crate::contract::{Dynamics, Matrix, Vector};
 
 use factors::Factors;
-pub(crate) use guard_point::{Found, GuardPoint, OnGuard};
+pub(crate) use guard_point::{FINE, Found, GuardPoint, OnGuard};
 use pairs::{MOST_IN_PAIRS, in_pairs, remainder, switching_in_pairs};
 pub(crate) use reached::Turn;
 pub(crate) use weights::{COARSE, Weights};
@@ -124,10 +124,22 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         dynamics: &F,
         time: Time<S>,
         state: &State<N, S>,
-        (weights, used): (&Weights<N, S>, S::Mask),
+        how: (&Weights<N, S>, S::Mask),
     ) -> Vector<S, N> {
+        self.correction_by(dynamics, time, state, how).0
+    }
+
+    /// The same, and Λ.
+    #[inline(always)]
+    fn correction_by<F: Dynamics<S, N, M>>(
+        &self,
+        dynamics: &F,
+        time: Time<S>,
+        state: &State<N, S>,
+        (weights, used): (&Weights<N, S>, S::Mask),
+    ) -> (Vector<S, N>, Matrix<S, M, N>) {
         if M == 0 || dynamics.quantities() == 0 {
-            return filled(S::from_f64(0.0));
+            return (filled(S::from_f64(0.0)), filled(S::from_f64(0.0)));
         }
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let little = self.bound(little(N), weights);
@@ -147,7 +159,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             weights.solved(rows, &residual, (&little, used))
         };
         if steep.all_of(used) {
-            return displacement;
+            return (displacement, multiplier);
         }
         let gentle = Gentle {
             level: self,
@@ -156,7 +168,8 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             multiplier: &multiplier,
             how: (weights, used),
         };
-        steep.select_vector(&displacement, &S::apart(gentle))
+        let displacement = steep.select_vector(&displacement, &S::apart(gentle));
+        (displacement, multiplier)
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.

@@ -154,7 +154,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             };
             if series.dips(horizon, band) {
                 return Ahead::Undecided(Part {
-                    share: self.memory.finest,
+                    share: self.method.finest(),
                     is_finest: true,
                 });
             }
@@ -228,7 +228,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 Met::Undecided(_) if part.is_finest => return Ahead::Unknown(guard),
                 Met::Undecided(_) => {
                     return Ahead::Undecided(Part {
-                        share: self.memory.finest,
+                        share: self.method.finest(),
                         is_finest: true,
                     });
                 }

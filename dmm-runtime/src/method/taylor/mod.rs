@@ -126,8 +126,6 @@ impl Taylor {
 pub struct Memory<const N: usize> {
     /// The part of the radius of convergence that a step takes.
     fraction: f64,
-    /// The part of such a step whose error is below rounding.
-    finest: f64,
     decay: Decay,
     /// The size of the step before, or 0.
     pub(crate) step: f64,
@@ -154,10 +152,10 @@ impl Method for Taylor {
     }
 
     fn memory<const N: usize>(&self, _t0: f64, _t_end: f64) -> Memory<N> {
+        let fraction = self.fraction();
         Memory {
-            fraction: self.fraction(),
-            decay: Decay::new(self.fraction()),
-            finest: self.finest(),
+            fraction,
+            decay: Decay::new(fraction),
             step: 0.0,
             unit: 1.0,
             free: 0.0,
