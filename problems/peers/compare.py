@@ -137,6 +137,11 @@ def compare(problem, sample, description, library, peers, report):
     for level in LEVELS:
         fastest, peer = chosen(ours, level), chosen(others, level)
         report.level(problem, level, fastest, peer, duel(fastest, peer))
+        slower = dict.fromkeys(setting.who for setting in others if setting.who != peer.who)
+        for who in slower:
+            own = chosen([setting for setting in others if setting.who == who], level)
+            reaches = "" if own.error <= level else f" (reaches {own.error:.0e})"
+            print(f"         {who}{reaches} {own.net / fastest.net:.1f} times as long")
     return ours, others
 
 

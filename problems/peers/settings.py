@@ -8,8 +8,9 @@ import statistics
 TRIAL, LEAST_TRIALS, PAIRS = 0.02, 3, 25
 # tighter tolerances of one that takes longer are not tried: low orders take hours
 LONGEST = 0.5
-# a run this long is repeated in its turn, because the first after a pause is slower
-QUICK, REPEATS = 0.01, 3
+# a turn takes about this long, because the first runs after a pause are slower, and is as many runs at least
+# and at most; longer runs are turns of their own
+TURN, LEAST_REPEATS, MOST_REPEATS = 0.005, 3, 999
 
 
 class Setting:
@@ -29,7 +30,9 @@ class Setting:
         return self.seconds - self.overhead
 
     def turn(self):
-        repeats = REPEATS if self.seconds < QUICK else 1
+        repeats = min(MOST_REPEATS, max(LEAST_REPEATS, round(TURN / self.seconds)))
+        if self.seconds > 2 * TURN:
+            repeats = 1
         return statistics.median(self.function(self.t_end, repeats)[0])
 
 

@@ -1,124 +1,42 @@
-//! Larger systems, for comparisons by Taylor's method alone: chains of 4 to 64 masses, planets around a
-//! star, the outer planets.
+//! Larger systems for comparisons: chains of 4 to 64 masses, planets around a star, the outer planets.
 
-use std::time::Duration;
-
-use cpu_time::ThreadTime;
-use dmm_problems::method::Run;
-use dmm_problems::problem::{Description, Problem};
+use dmm_problems::problem::Description;
 use dmm_problems::systems::fput_chain::parabola;
-use dmm_runtime::{End, Error, Integrator, Model, System, Taylor, Vector, pws};
+use dmm_runtime::{System, pws};
 
-/// The end of a run.
-pub(crate) struct Finish {
-    /// x(t_end)
-    pub(crate) x: Vec<f64>,
-    /// How many steps it took.
-    pub(crate) steps: u64,
-    /// How long it took.
-    pub(crate) time: Duration,
-}
+/// What is done with a problem whose system is a type.
+pub(crate) trait Visitor {
+    type Output;
 
-/// A problem.
-pub(crate) struct Large {
-    description: Description,
-    declaration: fn() -> String,
-    run: fn(tolerance: f64, t_end: f64) -> Result<Finish, Error>,
-}
-
-impl Large {
-    /// The problem of this name.
-    pub(crate) fn find(name: &str) -> Option<&'static Self> {
-        LARGE.iter().find(|large| large.description.name == name)
-    }
-
-    /// The chains, by their number of states.
-    fn chains() -> impl Iterator<Item = (usize, &'static Self)> {
-        let chains = LARGE.iter();
-        let chains = chains.filter(|large| large.description.name.starts_with("chain"));
-        chains.map(|chain| (chain.description.initial.len(), chain))
-    }
-
-    /// The problem, compiled at run time.
-    pub(crate) fn problem(&self) -> Result<Problem, String> {
-        let model = Model::compile(&(self.declaration)()).map_err(|error| error.to_string())?;
-        let system = model.into_any::<Run>().map_err(|error| error.to_string())?;
-        Ok(Problem::new(self.description, system))
-    }
-
-    /// A run by Taylor's method.
-    pub(crate) fn integrate(&self, tolerance: f64, t_end: f64) -> Result<Finish, Error> {
-        (self.run)(tolerance, t_end)
-    }
-}
-
-/// Prints the time of a step of chains by their number of states N, and the exponent p of N^p that fits
-/// best.
-pub(crate) fn print_chains() -> Result<(), Box<dyn std::error::Error>> {
-    const T_END: f64 = 1000.0;
-    const RUNS: usize = 9;
-    println!("tolerance  states  steps  ns a step  ns a step and state");
-    for tolerance in [1e-4, 1e-8, 1e-12] {
-        let mut points = Vec::new();
-        for (states, chain) in Large::chains() {
-            let runs = (0..RUNS).map(|_| chain.integrate(tolerance, T_END));
-            let runs = runs.collect::<Result<Vec<_>, _>>()?;
-            let a_step = |run: &Finish| 1e9 * run.time.as_secs_f64() / run.steps as f64;
-            let nanoseconds = runs.iter().map(a_step).fold(f64::INFINITY, f64::min);
-            let (size, steps) = (states as f64, runs[0].steps);
-            let a_state = nanoseconds / size;
-            println!("{tolerance:9e} {states:7} {steps:6} {nanoseconds:10.0} {a_state:20.1}");
-            points.push((size.ln(), nanoseconds.ln()));
-        }
-        let count = points.len() as f64;
-        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / count;
-        let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-        let (xy, xx) = (
-            mean(|point| point.0 * point.1),
-            mean(|point| point.0 * point.0),
-        );
-        println!("{tolerance:9e} exponent {:.2}", (xy - x * y) / (xx - x * x));
-    }
-    Ok(())
-}
-
-/// A run from the start.
-fn run<Sys: System<N> + Default, const N: usize>(
-    initial: [f64; N],
-    tolerance: f64,
-    t_end: f64,
-) -> Result<Finish, Error> {
-    let start = ThreadTime::now();
-    let system = Sys::default();
-    let end: End<_, N> = Integrator::new(&system, Taylor::tolerance(tolerance))
-        .initial(0.0, Vector::from(initial))
-        .observe_until(t_end, &mut ())?;
-    Ok(Finish {
-        time: start.elapsed(),
-        x: end.point.x.iter().copied().collect(),
-        steps: end.statistics.steps,
-    })
+    fn visit<Sys: System<N> + Default, const N: usize>(
+        self,
+        description: &Description,
+        initial: [f64; N],
+    ) -> Self::Output;
 }
 
 macro_rules! large {
     ($($name:literal $title:literal $source:ident $system:path, $states:literal $initial:expr;)*) => {
-        const LARGE: &[Large] = &[$(Large {
-            description: Description {
-                name: $name,
-                title: $title,
-                source: $source,
-                initial: {
+        /// Does it with the problem of this name, if there is one.
+        pub(crate) fn visit<V: Visitor>(name: &str, visitor: V) -> Option<V::Output> {
+            match name {
+                $($name => {
                     const INITIAL: [f64; $states] = $initial;
-                    &INITIAL
-                },
-                t_end: 100.0,
-                step_size: 1e-2,
-                longest: None,
-                reference: None,
-            },
-            declaration: || <$system>::default().declaration().to_owned(),
-            run: |tolerance, t_end| run::<$system, $states>($initial, tolerance, t_end),
-        }),*];
+                    let description = Description {
+                        name: $name,
+                        title: $title,
+                        source: $source,
+                        initial: &INITIAL,
+                        t_end: 100.0,
+                        step_size: 1e-2,
+                        longest: None,
+                        reference: None,
+                    };
+                    Some(visitor.visit::<$system, $states>(&description, INITIAL))
+                })*
+                _ => None,
+            }
+        }
     };
 }
 

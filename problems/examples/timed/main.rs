@@ -20,7 +20,11 @@
 
 // the tests do without: its systems take most of the time to compile
 #[cfg(all(feature = "compiled", not(test)))]
+mod chains;
+#[cfg(all(feature = "compiled", not(test)))]
 mod large;
+#[cfg(all(feature = "compiled", not(test)))]
+mod larger;
 
 use std::error::Error;
 use std::io::{BufRead, Write};
@@ -40,7 +44,7 @@ use serde_json::{Value, json};
 fn main() -> Result<(), Box<dyn Error>> {
     #[cfg(all(feature = "compiled", not(test)))]
     if std::env::args().nth(1).as_deref() == Some("chains") {
-        return large::print_chains();
+        return chains::print();
     }
     let mut out = std::io::stdout().lock();
     for line in std::io::stdin().lock().lines() {
@@ -55,10 +59,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
     #[cfg(all(feature = "compiled", not(test)))]
-    if let [_, name, ..] = words
-        && let Some(large) = large::Large::find(name)
-    {
-        return of_large(large, words);
+    if let Some(answer) = larger::answer(words) {
+        return answer;
     }
     match words {
         ["schemes"] => Ok(schemes()),
@@ -75,30 +77,6 @@ fn answer(words: &[&str]) -> Result<Value, Box<dyn Error>> {
             ensemble(&problem, &run, &starts, *how == "lanes", repeats.parse()?)
         }
         _ => Err(format!("no such request: {}", words.join(" ")).into()),
-    }
-}
-
-/// The answer to what is asked of a larger system.
-#[cfg(all(feature = "compiled", not(test)))]
-fn of_large(large: &large::Large, words: &[&str]) -> Result<Value, Box<dyn Error>> {
-    match words {
-        ["describe", _] => describe(&large.problem()?),
-        ["run", _, "taylor", control, t_end, repeats] => {
-            let tolerance = control.strip_prefix("tolerance=").ok_or("no tolerance")?;
-            let (tolerance, t_end) = (tolerance.parse()?, t_end.parse()?);
-            let finishes = (0..repeats.parse::<usize>()?.max(1))
-                .map(|_| large.integrate(tolerance, t_end))
-                .collect::<Result<Vec<_>, _>>()?;
-            let last = finishes.last().ok_or("nothing was run")?;
-            let seconds = finishes.iter().map(|finish| finish.time.as_secs_f64());
-            Ok(json!({
-                "x": last.x,
-                "steps": last.steps,
-                "transitions": 0,
-                "seconds": seconds.collect::<Vec<f64>>(),
-            }))
-        }
-        _ => Err("no problem for this scheme: it is integrated by taylor".into()),
     }
 }
 

@@ -4,9 +4,13 @@
 
 mod differential_equations;
 mod diffsol;
+#[path = "../../../examples/timed/large.rs"]
+mod large;
 mod sides;
+mod sundials;
 
 use std::error::Error;
+use std::ffi::CStr;
 use std::io::{BufRead, Write};
 
 use cpu_time::ThreadTime;
@@ -27,7 +31,13 @@ pub struct End<const N: usize> {
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// The integrators.
-const PEERS: [&str; 2] = ["diffsol-tsit45", "differential-equations-rkv989e"];
+const PEERS: [&str; 5] = [
+    "diffsol-tsit45",
+    "differential-equations-rkv989e",
+    "cvode-adams",
+    "arkode-verner-9",
+    "arkode-dormand-prince-5",
+];
 
 fn main() -> Outcome<()> {
     let mut out = std::io::stdout().lock();
@@ -75,7 +85,29 @@ fn run(problem: &str, peer: &str, tolerance: &str, t_end: &str, repeats: &str) -
         "kepler_refraction" => {
             task.timed(KeplerRefraction::default(), &kepler_refraction::DESCRIPTION)
         }
-        _ => Err(format!("no problem `{problem}` here").into()),
+        "henon_heiles" => task.timed(HenonHeiles::default(), &henon_heiles::DESCRIPTION),
+        "toda" => task.timed(Toda::default(), &toda::DESCRIPTION),
+        "relativistic_oscillator" => task.timed(
+            RelativisticOscillator::default(),
+            &relativistic_oscillator::DESCRIPTION,
+        ),
+        "poschl_teller" => task.timed(PoschlTeller::default(), &poschl_teller::DESCRIPTION),
+        "double_pendulum" => task.timed(DoublePendulum::default(), &double_pendulum::DESCRIPTION),
+        "three_body" => task.timed(ThreeBody::default(), &three_body::DESCRIPTION),
+        _ => large::visit(problem, task)
+            .unwrap_or_else(|| Err(format!("no problem `{problem}` here").into())),
+    }
+}
+
+impl large::Visitor for Task<'_> {
+    type Output = Outcome<Value>;
+
+    fn visit<Sys: System<N> + Default, const N: usize>(
+        self,
+        description: &Description,
+        _: [f64; N],
+    ) -> Outcome<Value> {
+        self.timed(Sys::default(), description)
     }
 }
 
@@ -87,6 +119,15 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
+    fn arkode<Sys: System<N>, const N: usize>(
+        &self,
+        sides: &Sides<'_, Sys, N>,
+        initial: [f64; N],
+        table: &CStr,
+    ) -> Outcome<End<N>> {
+        sundials::explicit(sides, initial, self.t_end, self.tolerance, table)
+    }
+
     fn timed<Sys: System<N>, const N: usize>(
         &self,
         system: Sys,
@@ -102,6 +143,11 @@ impl Task<'_> {
                 "diffsol-tsit45" => diffsol::tsit45(&sides, initial, self.t_end, self.tolerance)?,
                 "differential-equations-rkv989e" => {
                     differential_equations::rkv989e(&sides, initial, self.t_end, self.tolerance)?
+                }
+                "cvode-adams" => sundials::adams(&sides, initial, self.t_end, self.tolerance)?,
+                "arkode-verner-9" => self.arkode(&sides, initial, c"ARKODE_VERNER_16_8_9")?,
+                "arkode-dormand-prince-5" => {
+                    self.arkode(&sides, initial, c"ARKODE_DORMAND_PRINCE_7_4_5")?
                 }
                 other => return Err(format!("no integrator `{other}` here").into()),
             };

@@ -42,7 +42,7 @@ impl<const N: usize> DynamicsVisitor<N> for Switching<'_, N> {
 }
 
 impl<'a, Sys: System<N>, const N: usize> Sides<'a, Sys, N> {
-    /// From `initial` at t = 0, which is not on the interface.
+    /// From `initial` at t = 0, which is not on the interface, if there is one.
     pub fn new(system: &'a Sys, initial: &[f64; N]) -> Outcome<Self> {
         let sides = Self {
             system,
@@ -51,6 +51,11 @@ impl<'a, Sys: System<N>, const N: usize> Sides<'a, Sys, N> {
         };
         sides.go_to(sides.switching(0.0, initial).signum());
         Ok(sides)
+    }
+
+    /// Whether there is no interface.
+    pub fn is_smooth(&self) -> bool {
+        self.system.metadata().interfaces.is_empty()
     }
 
     /// The side that the solution is on: the sign of g.
@@ -78,8 +83,12 @@ impl<'a, Sys: System<N>, const N: usize> Sides<'a, Sys, N> {
         self.system.visit(self.region.get(), Field { t, x }).into()
     }
 
+    /// g; without an interface it never changes its sign.
     #[inline(always)]
     pub fn switching(&self, t: f64, x: &[f64; N]) -> f64 {
+        if self.is_smooth() {
+            return 1.0;
+        }
         let x = &Vector::from(*x);
         self.system.visit(self.region.get(), Switching { t, x })
     }
