@@ -197,7 +197,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             let size = delta.abs();
             elapsed += delta;
             if let Some((step, before)) = &last
-                && size.at_most(part(NEAR)).all()
+                && size.at_most(part(NEAR).min(step.abs())).all()
                 && step.abs().at_most(part(FAR)).all()
             {
                 let state = point.along_parabola(delta, (*step, before));

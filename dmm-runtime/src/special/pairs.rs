@@ -10,7 +10,7 @@
 //! Inverse functions take one step of Newton's method from that of a double, whose error is
 //! squared by it.
 
-use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E};
+use std::f64::consts::{FRAC_2_PI, LN_2, LOG2_E, SQRT_2};
 
 use super::series::power_series;
 use crate::arithmetic::Scalar;
@@ -23,13 +23,13 @@ const LN_2_LOW: f64 = 2.319_046_813_846_299_6e-17;
 /// 2^(j/8) for j from 0 to 7.
 const EIGHTHS: [Double; 8] = [
     Double::new(1.0, 0.0),
-    Double::new(1.0905077326652577, -3.046782079812471e-17),
-    Double::new(1.189207115002721, 3.982015231465646e-17),
-    Double::new(1.2968395546510096, 2.5382502794888315e-17),
-    Double::new(1.4142135623730951, -9.667293313452913e-17),
-    Double::new(1.5422108254079407, 7.949834809697621e-17),
-    Double::new(1.681792830507429, 8.199010020581497e-17),
-    Double::new(1.8340080864093424, 3.283107224245627e-17),
+    Double::new(1.090_507_732_665_257_7, -3.046_782_079_812_471e-17),
+    Double::new(1.189_207_115_002_721, 3.982_015_231_465_646e-17),
+    Double::new(1.296_839_554_651_009_6, 2.538_250_279_488_831_5e-17),
+    Double::new(SQRT_2, -9.667_293_313_452_913e-17),
+    Double::new(1.542_210_825_407_940_7, 7.949_834_809_697_621e-17),
+    Double::new(1.681_792_830_507_429, 8.199_010_020_581_497e-17),
+    Double::new(1.834_008_086_409_342_4, 3.283_107_224_245_627e-17),
 ];
 
 /// The coefficients of a power series: |u| ≤ π/4 to the 29th over 29! is 10⁻³⁴.

@@ -11,6 +11,8 @@ use dmm_runtime::System;
 use crate::sides::Sides;
 use crate::{End, Outcome};
 
+/// At tolerances below rounding its steps come to nothing.
+const MOST_STEPS: usize = 2_000_000;
 /// Corrections of a crossing.
 const MOST_CORRECTIONS: usize = 60;
 
@@ -90,7 +92,7 @@ fn method<const N: usize>(
     ExplicitRungeKutta::rkv989e()
         .rtol(tolerance)
         .atol(tolerance)
-        .max_steps(usize::MAX)
+        .max_steps(MOST_STEPS)
 }
 
 pub fn rkv989e<Sys: System<N>, const N: usize>(

@@ -27,7 +27,7 @@ unsafe extern "C" {
 /// `ARK_NORMAL`: until the end.
 const UNTIL_END: c_int = 1;
 
-const MOST_STEPS: c_long = 100_000_000;
+const MOST_STEPS: c_long = 2_000_000;
 
 /// The numbers of a vector.
 ///
