@@ -6,8 +6,8 @@
 //! polynomial, from the point and the one before. The rest, so small that the flow is a straight
 //! line over it, is taken together with what is off the level: with u = −Λ⁺(ψ − ψ_ref) and
 //! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ. The
-//! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
-//! hold to some thirty digits, and transitions add nothing to the level.
+//! last time g and ψ, but not their slopes, are evaluated in pairs of doubles, at the point with its
+//! remainder: both hold to some twenty-seven digits at least, and transitions add nothing to the level.
 
 use super::reached::select;
 use super::{Level, Weights, switching_in_pairs};
