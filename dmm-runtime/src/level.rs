@@ -124,22 +124,10 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         dynamics: &F,
         time: Time<S>,
         state: &State<N, S>,
-        how: (&Weights<N, S>, S::Mask),
-    ) -> Vector<S, N> {
-        self.correction_by(dynamics, time, state, how).0
-    }
-
-    /// The same, and Λ.
-    #[inline(always)]
-    fn correction_by<F: Dynamics<S, N, M>>(
-        &self,
-        dynamics: &F,
-        time: Time<S>,
-        state: &State<N, S>,
         (weights, used): (&Weights<N, S>, S::Mask),
-    ) -> (Vector<S, N>, Matrix<S, M, N>) {
+    ) -> Vector<S, N> {
         if M == 0 || dynamics.quantities() == 0 {
-            return (filled(S::from_f64(0.0)), filled(S::from_f64(0.0)));
+            return filled(S::from_f64(0.0));
         }
         let (psi, multiplier) = dynamics.multiplier(time.value, &state.x);
         let little = self.bound(little(N), weights);
@@ -159,7 +147,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             weights.solved(rows, &residual, (&little, used))
         };
         if steep.all_of(used) {
-            return (displacement, multiplier);
+            return displacement;
         }
         let gentle = Gentle {
             level: self,
@@ -168,8 +156,7 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
             multiplier: &multiplier,
             how: (weights, used),
         };
-        let displacement = steep.select_vector(&displacement, &S::apart(gentle));
-        (displacement, multiplier)
+        steep.select_vector(&displacement, &S::apart(gentle))
     }
 
     /// ψ(t, x) − ψ_ref in pairs of doubles, rounded.

@@ -6,15 +6,15 @@
 //! polynomial, from the point and the one before. The rest, so small that the flow is a straight
 //! line over it, is taken together with what is off the level: with u = −Λ⁺(ψ − ψ_ref) and
 //! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ. The
-//! last time g and ψ, but not their slopes, are evaluated in pairs of doubles, at the point with its
-//! remainder: both hold to some twenty-seven digits at least, and transitions add nothing to the level.
+//! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
+//! hold to some thirty digits, and transitions add nothing to the level.
 
 use super::reached::select;
 use super::{Level, Weights, switching_in_pairs};
 use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
 use crate::arithmetic::{State, Time, filled};
-use crate::contract::{Dynamics, Guards, Matrix, Vector};
+use crate::contract::{Dynamics, Guards, Vector};
 
 /// Corrections of a crossing next to it.
 const MOST_CORRECTIONS: u32 = 12;
@@ -28,9 +28,8 @@ const SMALL: f64 = 1e-8;
 const NEAR: f64 = 1e-5;
 /// The points of such a parabola are no further apart.
 const FAR: f64 = 0.05;
-/// A displacement of this part of the state leaves nothing to speak of beside a rounding error, and
-/// changes slopes by no more.
-pub(crate) const FINE: f64 = 1e-11;
+/// A point off by this part of the state is as close as doubles can come.
+pub(crate) const FINE: f64 = 2e-16;
 
 /// A crossing in a step.
 #[derive(Clone, Copy, Debug)]
@@ -256,6 +255,8 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         /// A displacement of this part of the state or of the step leaves its square, which is no more
         /// than a rounding error of doubles.
         const ROUGH: f64 = 1e-8;
+        /// One of this part has an error of second order far below a rounding error of doubles.
+        const SMALL: f64 = 1e-11;
         /// One of this part has one that is below the rounding errors of pairs.
         const SMALLEST: f64 = 1e-15;
         let n = S::from_f64;
@@ -263,23 +264,19 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let x = state.x;
         let weights = Weights::new(&x, increment);
         let whole = dot(&x, &x) + dot(increment, increment);
-        let [rough, fine, smallest] = [ROUGH, FINE, SMALLEST].map(|part| n(part * part) * whole);
+        let [rough, small, smallest] = [ROUGH, SMALL, SMALLEST].map(|part| n(part * part) * whole);
         let mut point = Self::at(dynamics, guard, time, state.normalised());
-        // Λ at the point, unless it has moved away since
-        let mut known: Option<Matrix<S, M, N>> = None;
         let mut before = n(f64::INFINITY);
         let mut moves = used.and(is_fine.not());
         for _ in 0..MOST_CORRECTIONS {
             if !moves.any() {
                 break;
             }
-            let mut off = none;
-            if corrects {
-                let how = (&weights, moves);
-                let (to_level, multiplier) =
-                    level.correction_by(dynamics, point.time, &point.state, how);
-                (off, known) = (to_level, Some(multiplier));
-            }
+            let off = if corrects {
+                level.correction(dynamics, point.time, &point.state, (&weights, moves))
+            } else {
+                none
+            };
             let (displacement, delta) = point.displacement(&off);
             let size = dot(&displacement, &displacement);
             // where g hardly changes, its rounding errors in doubles move the point further
@@ -290,37 +287,34 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
                 break;
             }
             point.shift((&displacement, delta), moves);
-            before = size;
-            if moves.and(size.above(fine)).any() {
-                point.read(dynamics, guard);
-                known = None;
-            }
+            point.read(dynamics, guard);
+            // what is left of others now is a rounding error
             moves = moves.and(size.above(rough));
+            before = size;
         }
         let mut moves = used;
-        for _ in 0..MOST_CORRECTIONS {
+        for number in 0..MOST_CORRECTIONS {
             point.value = switching_in_pairs(dynamics, guard, point.time, &point.state);
-            let mut off = none;
-            if corrects {
-                let multiplier = match known {
-                    Some(multiplier) => multiplier,
-                    None => dynamics.multiplier(point.time.value, &point.state.x).1,
-                };
+            let off = if corrects {
+                let (_, multiplier) = dynamics.multiplier(point.time.value, &point.state.x);
                 let residual = level.residual(dynamics, point.time, &point.state);
                 let rows = (&multiplier, dynamics.quantities());
-                off = level.towards(rows, &residual, (&weights, moves));
-            }
+                level.towards(rows, &residual, (&weights, moves))
+            } else {
+                none
+            };
             let (displacement, delta) = point.displacement(&off);
             point.shift((&displacement, delta), moves);
             let size = dot(&displacement, &displacement);
-            moves = moves.and(size.at_most(fine).not());
+            // a third one is to be no smaller than rounding errors of doubles allow
+            let most = if number < 2 { n(4.0) * smallest } else { small };
+            moves = moves.and(size.at_most(most).not());
             if !moves.any() {
                 break;
             }
             let rate = point.rate;
             point.read(dynamics, guard);
             point.rate = moves.select(point.rate, rate);
-            known = None;
         }
         let located = used.and(moves.not()).and(is_finite(&point.state.x));
         let Self {
