@@ -37,7 +37,7 @@ use crate::arithmetic::{MinimalNorm, State, Time, filled};
 use crate::contract::{Dynamics, Matrix, Vector};
 
 use factors::Factors;
-pub(crate) use guard_point::{FINE, Found, GuardPoint, OnGuard};
+pub(crate) use guard_point::{Found, GuardPoint, OnGuard};
 use pairs::{MOST_IN_PAIRS, in_pairs, remainder, switching_in_pairs};
 pub(crate) use reached::Turn;
 pub(crate) use weights::{COARSE, Weights};

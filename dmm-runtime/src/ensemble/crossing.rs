@@ -1,7 +1,7 @@
 //! The point where all lanes of a register meet an interface, in their next step.
 
 use super::kernel::Run;
-use super::register::{Wide, WideMask};
+use super::register::Wide;
 use crate::arithmetic::Scalar;
 use crate::arithmetic::masked::{Mask, vector};
 use crate::contract::Dynamics;
@@ -29,16 +29,8 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let how = (self.settings.corrects, located);
         let level = self.register.level();
         let near = (time, &state);
-        let fine = WideMask::all_are(false);
-        let (there, crossed) = GuardPoint::settled(
-            near,
-            self.dynamics,
-            &level,
-            interface,
-            &increment,
-            how,
-            fine,
-        );
+        let (there, crossed) =
+            GuardPoint::settled(near, self.dynamics, &level, interface, &increment, how);
         self.register.move_to(crossed, &(there.time, there.state));
         self.register.rate = there.rate;
         self.register.before = crossed.select(tau, self.register.before);

@@ -296,7 +296,7 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
     }
 
     #[inline(always)]
-    pub(crate) fn order(&self) -> usize {
+    pub(super) fn order(&self) -> usize {
         if U::EXACT { P - 1 } else { self.order }
     }
 

@@ -2,8 +2,7 @@
 //! both to rounding.
 //!
 //! The root of g along the polynomial is found by Halley's method, with d²g/dt² from the cubic
-//! between the start of the step and the point; the last correction, if it is small, is made without the
-//! polynomial, from the point and the one before. The rest, so small that the flow is a straight
+//! between the start of the step and the point. The rest, so small that the flow is a straight
 //! line over it, is taken together with what is off the level: with u = −Λ⁺(ψ − ψ_ref) and
 //! δ = −(g + ∇g·u)/(dg/dt) the point moves by u + f δ and the time by δ, because f keeps ψ. The
 //! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
@@ -24,12 +23,6 @@ const MOST_HALVINGS: u32 = 100;
 const CLOSE: f64 = 1e-4;
 /// A correction of the time smaller than this part of the step is made along the field.
 const SMALL: f64 = 1e-8;
-/// One smaller than this part is made along the parabola through the last two points.
-const NEAR: f64 = 1e-5;
-/// The points of such a parabola are no further apart.
-const FAR: f64 = 0.05;
-/// A point off by this part of the state is as close as doubles can come.
-pub(crate) const FINE: f64 = 2e-16;
 
 /// A crossing in a step.
 #[derive(Clone, Copy, Debug)]
@@ -176,50 +169,23 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         tau: S,
         increment: impl Fn(S) -> Vector<S, N>,
     ) -> Option<(Time<S>, State<N, S>)> {
-        let part = |part: f64| S::from_f64(part) * tau;
-        let is_inside = |elapsed: S| {
-            let (lower, upper) = found.bracket;
-            let slack = part(SMALL);
-            let inside = (lower - slack).at_most(elapsed);
-            inside.and(elapsed.at_most(upper + slack)).all()
-        };
         let mut elapsed = found.elapsed;
         let mut is_close = false;
-        let mut last: Option<(S, Self)> = None;
         for _ in 0..MOST_CORRECTIONS {
             let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
             if is_close {
-                return is_inside(elapsed).then_some((time, state));
+                let (lower, upper) = found.bracket;
+                let slack = S::from_f64(SMALL) * tau;
+                let inside = (lower - slack).at_most(elapsed);
+                let inside = inside.and(elapsed.at_most(upper + slack));
+                return inside.all().then_some((time, state));
             }
             let point = Self::at(dynamics, found.guard, time, state);
             let delta = point.correction(found, elapsed);
-            let size = delta.abs();
+            is_close = delta.abs().at_most(S::from_f64(CLOSE) * tau).all();
             elapsed += delta;
-            if let Some((step, before)) = &last
-                && size.at_most(part(NEAR).min(step.abs())).all()
-                && step.abs().at_most(part(FAR)).all()
-            {
-                let state = point.along_parabola(delta, (*step, before));
-                return is_inside(elapsed).then_some((time.after(delta), state));
-            }
-            is_close = size.at_most(part(CLOSE)).all();
-            last = Some((delta, point));
         }
         None
-    }
-
-    /// The state `delta` later, on the parabola with the second derivative of the cubic from the point
-    /// `before`, which is a `step` earlier.
-    #[inline(always)]
-    fn along_parabola(&self, delta: S, (step, before): (S, &Self)) -> State<N, S> {
-        let n = S::from_f64;
-        let inverse = n(1.0) / step;
-        let half = n(0.5) * delta * delta * inverse;
-        self.state.after(&vector!(|i| {
-            let chord = (self.state.x[i] - before.state.x[i]) * inverse;
-            let bend = n(2.0) * before.field[i] + n(4.0) * self.field[i] - n(6.0) * chord;
-            bend.fused(half, self.field[i] * delta)
-        }))
     }
 
     /// The correction of a root at `elapsed`: a step of Halley's method, or of Newton's next to the
@@ -239,8 +205,8 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
     }
 
     /// Takes g and what is off the level of ψ, if that `corrects`, off a point close to the guard
-    /// after an `increment` of the state: in doubles until the square of what is left is of the size of
-    /// their rounding errors, then once in pairs of doubles. Returns the point, and the lanes in which
+    /// after an `increment` of the state: in doubles until what is left is of the size of their
+    /// rounding errors, then once in pairs of doubles. Returns the point, and the lanes in which
     /// it is one.
     #[inline(always)]
     pub(crate) fn settled<const M: usize, D: Dynamics<S, N, M>>(
@@ -250,12 +216,9 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         guard: usize,
         increment: &Vector<S, N>,
         (corrects, used): (bool, S::Mask),
-        is_fine: S::Mask,
     ) -> (OnGuard<N, S>, S::Mask) {
-        /// A displacement of this part of the state or of the step leaves its square, which is no more
-        /// than a rounding error of doubles.
-        const ROUGH: f64 = 1e-8;
-        /// One of this part has an error of second order far below a rounding error of doubles.
+        /// A displacement of this part of the state or of the step has an error of second order far
+        /// below a rounding error of doubles.
         const SMALL: f64 = 1e-11;
         /// One of this part has one that is below the rounding errors of pairs.
         const SMALLEST: f64 = 1e-15;
@@ -264,14 +227,11 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let x = state.x;
         let weights = Weights::new(&x, increment);
         let whole = dot(&x, &x) + dot(increment, increment);
-        let [rough, small, smallest] = [ROUGH, SMALL, SMALLEST].map(|part| n(part * part) * whole);
+        let (small, smallest) = (n(SMALL * SMALL) * whole, n(SMALLEST * SMALLEST) * whole);
         let mut point = Self::at(dynamics, guard, time, state.normalised());
         let mut before = n(f64::INFINITY);
-        let mut moves = used.and(is_fine.not());
+        let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {
-            if !moves.any() {
-                break;
-            }
             let off = if corrects {
                 level.correction(dynamics, point.time, &point.state, (&weights, moves))
             } else {
@@ -288,12 +248,15 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             }
             point.shift((&displacement, delta), moves);
             point.read(dynamics, guard);
-            // what is left of others now is a rounding error
-            moves = moves.and(size.above(rough));
+            // what is left now is a rounding error
+            moves = moves.and(size.above(small));
+            if !moves.any() {
+                break;
+            }
             before = size;
         }
         let mut moves = used;
-        for number in 0..MOST_CORRECTIONS {
+        for _ in 0..MOST_CORRECTIONS {
             point.value = switching_in_pairs(dynamics, guard, point.time, &point.state);
             let off = if corrects {
                 let (_, multiplier) = dynamics.multiplier(point.time.value, &point.state.x);
@@ -306,9 +269,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
             let (displacement, delta) = point.displacement(&off);
             point.shift((&displacement, delta), moves);
             let size = dot(&displacement, &displacement);
-            // a third one is to be no smaller than rounding errors of doubles allow
-            let most = if number < 2 { n(4.0) * smallest } else { small };
-            moves = moves.and(size.at_most(most).not());
+            moves = moves.and(size.at_most(small).not());
             if !moves.any() {
                 break;
             }

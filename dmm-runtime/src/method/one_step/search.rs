@@ -186,7 +186,7 @@ impl<Map: OneStep, Loc: Locator, S: Sink<N>, const N: usize> Segment<'_, Map, Lo
         let near = (time, &state);
         let how = (true, true);
         let (there, settled) =
-            GuardPoint::settled(near, dynamics, level, guard, &located.increment, how, false);
+            GuardPoint::settled(near, dynamics, level, guard, &located.increment, how);
         let is_later = there.time.since(self.cursor.time) >= 0.0;
         if !(settled && is_later && is_finite(&there.state.x)) {
             return None;

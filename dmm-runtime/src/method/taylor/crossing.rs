@@ -4,7 +4,7 @@ use super::segment::{Here, Segment};
 use crate::arithmetic::linear::is_finite;
 use crate::contract::{Dynamics, Guards};
 use crate::expansion::jet::Jet;
-use crate::level::{FINE, Found, GuardPoint, Level, OnGuard};
+use crate::level::{Found, GuardPoint, Level, OnGuard};
 use crate::method::{Ended, Failure, Sink};
 use crate::series::Unroll;
 
@@ -25,12 +25,8 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let increment = state.x - self.cursor.state.x;
             let how = (self.corrects(dynamics, found), true);
             let near = (time, &state);
-            // the error of a part of a step
-            let part = time.since(self.cursor.time) / tau;
-            let is_fine = self.method.tolerance * power(part, jet.order()) <= FINE;
-            let guard = found.guard;
             let (there, is_there) =
-                GuardPoint::settled(near, dynamics, level, guard, &increment, how, is_fine);
+                GuardPoint::settled(near, dynamics, level, found.guard, &increment, how);
             if is_there {
                 return Ok(self.end_on::<P, M, D, U>(dynamics, level, jet, (found, tau), there));
             }
@@ -99,7 +95,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let how = (corrects, true);
             let near = (time, &state);
             let (there, settled) =
-                GuardPoint::settled(near, dynamics, level, found.guard, &increment, how, false);
+                GuardPoint::settled(near, dynamics, level, found.guard, &increment, how);
             settled.then_some(there)
         };
         let corrects = located && self.corrects(dynamics, found);
@@ -125,18 +121,4 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let rate = f64::NAN;
         is_finite(&state.x).then_some(OnGuard { time, state, rate })
     }
-}
-
-/// uⁿ, which is a few products where n is known to the compiler.
-#[inline(always)]
-fn power(u: f64, mut n: usize) -> f64 {
-    let (mut power, mut base) = (1.0, u);
-    while n > 0 {
-        if n % 2 == 1 {
-            power *= base;
-        }
-        base *= base;
-        n /= 2;
-    }
-    power
 }
