@@ -2,6 +2,7 @@
 
 use std::error::Error;
 
+use dmm_problems::fit::fitted_order;
 use dmm_problems::problem::Description;
 use dmm_runtime::System;
 
@@ -14,7 +15,7 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
     const CHAINS: [&str; 5] = ["chain_4", "chain_8", "chain_16", "chain_32", "chain_64"];
     println!("tolerance  states  steps  ns a step  ns a step and state");
     for tolerance in [1e-4, 1e-8, 1e-12] {
-        let mut points = Vec::new();
+        let (mut sizes, mut times) = (Vec::new(), Vec::new());
         for chain in CHAINS {
             let Step {
                 states,
@@ -24,16 +25,11 @@ pub(crate) fn print() -> Result<(), Box<dyn Error>> {
             let size = states as f64;
             let a_state = nanoseconds / size;
             println!("{tolerance:9e} {states:7} {steps:6} {nanoseconds:10.0} {a_state:20.1}");
-            points.push((size.ln(), nanoseconds.ln()));
+            sizes.push(size);
+            times.push(nanoseconds);
         }
-        let count = points.len() as f64;
-        let mean = |value: fn(&(f64, f64)) -> f64| points.iter().map(value).sum::<f64>() / count;
-        let (x, y) = (mean(|point| point.0), mean(|point| point.1));
-        let (xy, xx) = (
-            mean(|point| point.0 * point.1),
-            mean(|point| point.0 * point.0),
-        );
-        println!("{tolerance:9e} exponent {:.2}", (xy - x * y) / (xx - x * x));
+        let exponent = fitted_order(&sizes, &times);
+        println!("{tolerance:9e} exponent {exponent:.2}");
     }
     Ok(())
 }

@@ -56,14 +56,23 @@ fn checked(what: &str, code: c_int) -> Outcome<()> {
     }
 }
 
-/// A vector and the context that it lives in.
+/// A vector, the context that it lives in, and what f is given.
 struct State {
     context: SUNContext,
     x: N_Vector,
+    data: *mut c_void,
 }
 
 impl State {
-    fn new<const N: usize>(initial: [f64; N]) -> Outcome<Self> {
+    /// What is not smooth is not asked of SUNDIALS here: methods of several steps begin anew at each crossing.
+    fn new<Sys: System<N>, const N: usize>(
+        sides: &Sides<'_, Sys, N>,
+        initial: [f64; N],
+    ) -> Outcome<Self> {
+        if !sides.is_smooth() {
+            return Err("no problem for this integrator: it has interfaces".into());
+        }
+        let data = from_ref(sides).cast_mut().cast();
         let mut context = null_mut();
         unsafe {
             checked("context", SUNContext_Create(SUN_COMM_NULL, &mut context))?;
@@ -71,7 +80,7 @@ impl State {
             SUNContext_ClearErrHandlers(context);
             let x = N_VNew_Serial(N as sunindextype, context);
             *numbers(x) = initial;
-            Ok(Self { context, x })
+            Ok(Self { context, x, data })
         }
     }
 
@@ -114,9 +123,7 @@ pub fn adams<Sys: System<N>, const N: usize>(
     t_end: f64,
     tolerance: f64,
 ) -> Outcome<End<N>> {
-    smooth(sides)?;
-    let state = State::new(initial)?;
-    let data = from_ref(sides).cast_mut().cast();
+    let state = State::new(sides, initial)?;
     let (mut t, mut steps) = (0.0, 0);
     unsafe {
         let made = Cvode {
@@ -130,7 +137,7 @@ pub fn adams<Sys: System<N>, const N: usize>(
             "tolerances",
             CVodeSStolerances(memory, tolerance, tolerance),
         )?;
-        checked("data", CVodeSetUserData(memory, data))?;
+        checked("data", CVodeSetUserData(memory, state.data))?;
         checked("solver", CVodeSetNonlinearSolver(memory, made.solver))?;
         checked("steps", CVodeSetMaxNumSteps(memory, MOST_STEPS))?;
         checked("end", CVodeSetStopTime(memory, t_end))?;
@@ -157,9 +164,7 @@ pub fn explicit<Sys: System<N>, const N: usize>(
     tolerance: f64,
     table: &CStr,
 ) -> Outcome<End<N>> {
-    smooth(sides)?;
-    let state = State::new(initial)?;
-    let data = from_ref(sides).cast_mut().cast();
+    let state = State::new(sides, initial)?;
     let (mut t, mut steps) = (0.0, 0);
     unsafe {
         let right_hand_side = Some(field::<Sys, N> as _);
@@ -170,7 +175,7 @@ pub fn explicit<Sys: System<N>, const N: usize>(
             "tolerances",
             ARKodeSStolerances(memory, tolerance, tolerance),
         )?;
-        checked("data", ARKodeSetUserData(memory, data))?;
+        checked("data", ARKodeSetUserData(memory, state.data))?;
         checked("steps", ARKodeSetMaxNumSteps(memory, MOST_STEPS))?;
         checked("end", ARKodeSetStopTime(memory, t_end))?;
         checked(
@@ -180,13 +185,4 @@ pub fn explicit<Sys: System<N>, const N: usize>(
         checked("steps", ARKodeGetNumSteps(memory, &mut steps))?;
     }
     Ok(state.end(steps))
-}
-
-/// What is not smooth is not asked of SUNDIALS here: methods of several steps begin anew at each crossing.
-fn smooth<Sys: System<N>, const N: usize>(sides: &Sides<'_, Sys, N>) -> Outcome<()> {
-    if sides.is_smooth() {
-        Ok(())
-    } else {
-        Err("no problem for this integrator: it has interfaces".into())
-    }
 }
