@@ -7,6 +7,17 @@ use pulp::NullaryFnOnce;
 
 use super::rows;
 
+/// A value of each lane, as an array like u: by a loop, as closures are not inlined for certain.
+macro_rules! lane_by_lane {
+    ($i:ident, $u:ident: $value:expr) => {{
+        let mut lanes = $u;
+        for ($i, lane) in lanes.iter_mut().enumerate() {
+            *lane = $value;
+        }
+        lanes
+    }};
+}
+
 /// A real scalar: `f64`; within this crate also pairs of doubles, and several doubles at once.
 ///
 /// Constants enter through [`Scalar::from_f64`]. The elementary functions are those of the
@@ -63,61 +74,41 @@ pub trait Scalar:
     fn products_by_column<const W: usize>(a: &[Self], b: &[Self]) -> [Self; W] {
         rows::products(Self::from_f64(0.0), Self::fused, a, b)
     }
-    /// Four scalars in one vector, where there are such.
+    /// L scalars in one vector, where there are such.
     #[doc(hidden)]
     #[inline(always)]
-    fn joined(four: [Self; 4]) -> [Self; 4] {
-        four
+    fn joined<const L: usize>(u: [Self; L]) -> [Self; L] {
+        u
     }
-    /// u + v of four scalars.
+    /// u + v of L scalars, 2 or 4.
     #[doc(hidden)]
     #[inline(always)]
-    fn four_sums(u: [Self; 4], v: [Self; 4]) -> [Self; 4] {
-        let mut four = u;
-        for i in 0..4 {
-            four[i] = u[i] + v[i];
-        }
-        four
+    fn pack_sums<const L: usize>(u: [Self; L], v: [Self; L]) -> [Self; L] {
+        lane_by_lane!(i, u: u[i] + v[i])
     }
-    /// u − v of four scalars.
+    /// u − v of L scalars.
     #[doc(hidden)]
     #[inline(always)]
-    fn four_differences(u: [Self; 4], v: [Self; 4]) -> [Self; 4] {
-        let mut four = u;
-        for i in 0..4 {
-            four[i] = u[i] - v[i];
-        }
-        four
+    fn pack_differences<const L: usize>(u: [Self; L], v: [Self; L]) -> [Self; L] {
+        lane_by_lane!(i, u: u[i] - v[i])
     }
-    /// u v of four scalars.
+    /// u v of L scalars.
     #[doc(hidden)]
     #[inline(always)]
-    fn four_products(u: [Self; 4], v: [Self; 4]) -> [Self; 4] {
-        let mut four = u;
-        for i in 0..4 {
-            four[i] = u[i] * v[i];
-        }
-        four
+    fn pack_products<const L: usize>(u: [Self; L], v: [Self; L]) -> [Self; L] {
+        lane_by_lane!(i, u: u[i] * v[i])
     }
-    /// −u of four scalars.
+    /// −u of L scalars.
     #[doc(hidden)]
     #[inline(always)]
-    fn four_negatives(u: [Self; 4]) -> [Self; 4] {
-        let mut four = u;
-        for i in 0..4 {
-            four[i] = -u[i];
-        }
-        four
+    fn pack_negatives<const L: usize>(u: [Self; L]) -> [Self; L] {
+        lane_by_lane!(i, u: -u[i])
     }
-    /// u·v + w of four scalars; see [`Scalar::fused`].
+    /// u·v + w of L scalars; see [`Scalar::fused`].
     #[doc(hidden)]
     #[inline(always)]
-    fn four_fused(u: [Self; 4], v: [Self; 4], w: [Self; 4]) -> [Self; 4] {
-        let mut four = u;
-        for i in 0..4 {
-            four[i] = u[i].fused(v[i], w[i]);
-        }
-        four
+    fn pack_fused<const L: usize>(u: [Self; L], v: [Self; L], w: [Self; L]) -> [Self; L] {
+        lane_by_lane!(i, u: u[i].fused(v[i], w[i]))
     }
     /// u, where a chain of operations is so long that it is better interrupted. (Of several
     /// scalars at once the compiler finds only ten operations or so that belong together.)

@@ -12,13 +12,16 @@
 //! straight-line code, or a number. A number comes with a unit of time σ: the coefficients are
 //! those of (h/σ)ᵏ then.
 
-mod four;
+mod pack;
 mod sums;
 #[cfg(test)]
 mod tests;
 mod unroll;
 
-pub use four::{Arithmetic, Four, four, set_four};
+pub use pack::{
+    Arithmetic, Columns, Common, Pack, Rows, integrals, pack, power_by_pairs, products, set_pack,
+    squares,
+};
 pub use sums::{half_sums, inner_sums, row};
 pub use unroll::{Choice, Coefficients, Mixed, Rolled, Straight, Unroll};
 
@@ -234,8 +237,8 @@ pub fn integral_from<S: Arithmetic, K: Order>(k: K, u: S, first: S, sum: S) -> S
     u.times_plus(first, sum * inverse(k.get()))
 }
 
-/// Coefficient k ≥ 1 of w = u^a from uₖ, w₀ and the [`inner_sums`] of w and h du/dh, and of h dw/dh
-/// and u; `inverse_base` is 1/u₀.
+/// Coefficient k ≥ 1 of w = u^a from uₖ, w₀ and the [`inner_sums`] of w and u, and of h dw/dh and u:
+/// with a k Σ wⱼ uₖ₋ⱼ − (a + 1) Σ j wⱼ uₖ₋ⱼ; `inverse_base` is 1/u₀.
 #[inline(always)]
 pub fn power_from<S: Arithmetic, K: Order>(
     k: K,
@@ -245,8 +248,12 @@ pub fn power_from<S: Arithmetic, K: Order>(
     inverse_base: S,
     [sum, other]: [S; 2],
 ) -> S {
-    let rest = a.times_plus(sum, -other) * (inverse_base * inverse(k.get()));
-    u.times_plus(a * first * inverse_base, rest)
+    let (k, one) = (k.get(), S::of(1.0));
+    let terms = (a * S::of(k as f64)).times_plus(sum, -((a + one) * other));
+    u.times_plus(
+        a * first * inverse_base,
+        terms * (inverse_base * inverse(k)),
+    )
 }
 
 /// Coefficient k of uv. The newest coefficients enter last, so that the sum of the others need

@@ -83,11 +83,11 @@ fn sums_in_lanes_are_those_of_each() {
         let [rows_a, rows_b] = [&a, &b].map(|of| std::array::from_fn(|lane| of[lane][k]));
         let (first, second) = tables.split_at_mut(W);
         for lane in (0..W).step_by(4) {
-            set_four(k, first, lane, Four::of_lanes(&rows_a, lane));
-            set_four(k, second, lane, Four::of_lanes(&rows_b, lane));
+            set_pack(first, k, lane, Pack::<_, 4>::of_lanes(&rows_a, lane));
+            set_pack(second, k, lane, Pack::<_, 4>::of_lanes(&rows_b, lane));
         }
         assert_eq!(row::<_, P, W>(first, k), &rows_a);
-        let four = four::<_, P, W>(second, k, 4).0;
+        let four = pack::<_, P, W, 4>(second, k, 4).0;
         assert_eq!(four[..], rows_b[4..8]);
     }
 }
@@ -98,7 +98,7 @@ fn four_values_in_one_vector_stay_what_they_are() {
         [1.5, -0.0, f64::MIN_POSITIVE, -f64::MAX],
         [0.0, f64::INFINITY, f64::NEG_INFINITY, -5e-324],
     ] {
-        let joined = Four::joined(four).0;
+        let joined = Pack::joined(four).0;
         assert_eq!(joined.map(f64::to_bits), four.map(f64::to_bits));
     }
 }
@@ -107,7 +107,7 @@ fn four_values_in_one_vector_stay_what_they_are() {
 fn recurrences_side_by_side_are_those_of_each() {
     let numbers = |seed: u64| -> [f64; 4] { std::array::from_fn(|i| sample(seed)[2 + i] + 1.0) };
     let [u, u0, v, v0, sum, middle] = [11, 12, 13, 14, 15, 16].map(numbers);
-    let [f, f0, g, g0, s, m] = [u, u0, v, v0, sum, middle].map(Four);
+    let [f, f0, g, g0, s, m] = [u, u0, v, v0, sum, middle].map(Pack);
     let each = |of: &dyn Fn(usize) -> f64| -> [f64; 4] { std::array::from_fn(of) };
     for k in 1..6 {
         let product = |i: usize| product_from(k, [u0[i], u[i]], [v0[i], v[i]], sum[i]);
@@ -147,6 +147,68 @@ fn quotients_roots_and_powers_are_inverse_to_products() {
     assert_close(&times(&w, &w), &u);
     let power_of = |a: f64| series(u[0].powf(a), |k, w| power(k, &u, a, w, 1.0 / u[0]));
     assert_close(&times(&power_of(0.3), &power_of(0.7)), &u);
+    for a in [0.3, -1.0, -1.5, 2.5] {
+        let (w, inverse) = (power_of(a), 1.0 / u[0]);
+        let by_pairs = series(w[0], |k, w| {
+            power_by_pairs(k, &u, a, &table([w, &derived(w)]), inverse)
+        });
+        let from_sums = series(w[0], |k, w| {
+            let sums = [w, &derived(w)].map(|of| inner(k, of, &u));
+            power_from(k, u[k], a, w[0], inverse, sums)
+        });
+        for other in [by_pairs, from_sums] {
+            // sums of at most 22 terms, of series that fall off like 0.75ᵏ
+            let is_close = |k: usize| (other[k] - w[k]).abs() <= 2e-14 * 0.75f64.powi(k as i32);
+            assert!((0..P).all(is_close), "{a}: {other:?} {w:?}");
+        }
+    }
+}
+
+/// A table of two lanes of two series.
+fn table(pair: [&[f64; P]; 2]) -> [[f64; P]; 2] {
+    let mut table = [[0.0; P]; 2];
+    for k in 0..P {
+        set_pack(&mut table, k, 0, Pack(pair.map(|series| series[k])));
+    }
+    table
+}
+
+#[test]
+fn pairs_are_two_products_two_squares_and_two_integrals() {
+    let [a, b, c, d] = [21, 22, 23, 24].map(sample);
+    let (u, v) = (table([&a, &b]), table([&c, &d]));
+    let below = |of: [&[f64; P]; 2], k: usize| {
+        // what is not known at order k must not count
+        let known =
+            of.map(|series| std::array::from_fn(|j| if j < k { series[j] } else { f64::NAN }));
+        table([&known[0], &known[1]])
+    };
+    for k in 0..P {
+        let newest = |of: [&[f64; P]; 2]| Pack(of.map(|series| series[k]));
+        let first = below([&a, &b], k.max(1));
+        let first = if k == 0 { u } else { first };
+        let factors = (Rows(&first), newest([&a, &b]));
+        let same = (Common(&c), Pack::all(c[k]));
+        // sums of at most 23 products, of series that fall off like 2⁻ᵏ
+        let close = |pair: Pack<f64, 2>, other: [f64; 2]| {
+            let error = 1e-13 * 0.5f64.powi(k as i32);
+            pair.0
+                .iter()
+                .zip(other)
+                .all(|(a, b)| (a - b).abs() <= error)
+        };
+        let both = products(k, factors, (Rows(&v), newest([&c, &d])));
+        assert!(close(both, [product(k, &a, &c), product(k, &b, &d)]));
+        let both = products(k, factors, same);
+        assert!(close(both, [product(k, &a, &c), product(k, &b, &c)]));
+        assert!(close(squares(k, factors), [square(k, &a), square(k, &b)]));
+        if k > 0 {
+            let slopes = derived(&d);
+            let both = integrals(k, d[k], &slopes, &first);
+            let each = [&a, &b].map(|v| integral(k, d[k], &slopes, v));
+            assert!(close(both, each));
+        }
+    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Doubles as scalars.
 
-use wide::f64x4;
+use wide::{f64x2, f64x4};
 
 use crate::arithmetic::Scalar;
 use crate::arithmetic::error_free::HAS_FUSED;
@@ -15,6 +15,29 @@ macro_rules! forward {
             $module::$function(self $(, $other)?)
         }
     )*};
+}
+
+/// Functions of packs of two or four doubles, by vectors.
+macro_rules! by_vectors {
+    ($($function:ident($($u:ident),+) => $value:expr;)*) => {$(
+        #[inline(always)]
+        fn $function<const L: usize>($($u: [f64; L]),+) -> [f64; L] {
+            const { assert!(L == 2 || L == 4) };
+            if L == 2 {
+                $(let $u = f64x2::new(resized($u));)+
+                resized(($value).to_array())
+            } else {
+                $(let $u = f64x4::new(resized($u));)+
+                resized(($value).to_array())
+            }
+        }
+    )*};
+}
+
+/// The same array; zeros where its length is another one.
+#[inline(always)]
+fn resized<const A: usize, const B: usize>(u: [f64; A]) -> [f64; B] {
+    u.first_chunk().copied().unwrap_or([0.0; B])
 }
 
 impl Scalar for f64 {
@@ -44,38 +67,14 @@ impl Scalar for f64 {
         rows::products_by_vectors(a, b)
     }
 
-    /// The larger of −∞ and each, as LLVM would take a vector that nothing is done with apart again.
-    #[inline(always)]
-    fn joined(four: [f64; 4]) -> [f64; 4] {
-        let least = f64x4::splat(f64::NEG_INFINITY);
-        least.fast_max(f64x4::new(four)).to_array()
-    }
-
-    #[inline(always)]
-    fn four_sums(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
-        (f64x4::new(u) + f64x4::new(v)).to_array()
-    }
-
-    #[inline(always)]
-    fn four_differences(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
-        (f64x4::new(u) - f64x4::new(v)).to_array()
-    }
-
-    #[inline(always)]
-    fn four_products(u: [f64; 4], v: [f64; 4]) -> [f64; 4] {
-        (f64x4::new(u) * f64x4::new(v)).to_array()
-    }
-
-    #[inline(always)]
-    fn four_negatives(u: [f64; 4]) -> [f64; 4] {
-        (-f64x4::new(u)).to_array()
-    }
-
-    #[inline(always)]
-    fn four_fused(u: [f64; 4], v: [f64; 4], w: [f64; 4]) -> [f64; 4] {
-        f64x4::new(u)
-            .mul_add(f64x4::new(v), f64x4::new(w))
-            .to_array()
+    by_vectors! {
+        // the larger of −∞ and each, as LLVM would take a vector that nothing is done with apart again
+        joined(u) => u.fast_max(f64::NEG_INFINITY.into());
+        pack_sums(u, v) => u + v;
+        pack_differences(u, v) => u - v;
+        pack_products(u, v) => u * v;
+        pack_negatives(u) => -u;
+        pack_fused(u, v, w) => u.mul_add(v, w);
     }
 
     #[inline]

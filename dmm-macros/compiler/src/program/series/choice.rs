@@ -115,8 +115,7 @@ impl<'a> Choice<'a> {
                 exponent: b,
                 own: self.node(id),
                 inverse: place(Slot::Inverse(id)),
-                derivatives: (self.slots.sums != Sums::Straight)
-                    .then(|| [a, id].map(|one| place(Slot::Derivative(one)))),
+                derivative: place(Slot::Derivative(id)),
             },
             Math::Pow([a, b]) => Recurrence::VariablePower {
                 base: self.base(id, a, b),

@@ -17,7 +17,7 @@ mod shortest;
 mod slots;
 mod tables;
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
 use egg::Language;
@@ -30,7 +30,7 @@ use super::function::Functions;
 use super::inputs::{Input, at_point, inputs};
 use super::lower::Lowered;
 use crate::algebra::{Id, Name};
-pub use packs::{LANES, fused_term};
+pub use packs::{LANES, PAIR, fused_term};
 pub use recurrence::{Base, Place, Primitive, Recurrence, Shifted, Sum};
 pub use scaled::{Factor, Later, Scaled, multiple};
 pub(super) use shortest::for_series;
@@ -70,6 +70,9 @@ pub struct Series {
     /// The coefficients of the nodes that change with the time, in the order in which they are
     /// computed.
     pub coefficients: Vec<Coefficient>,
+    /// By power, the multiple of it that is all that is made of it, if a recurrence needs that: a multiple
+    /// of u^c has the same recurrence, so that the power itself is not computed.
+    pub multiples: BTreeMap<Id, Id>,
     /// Those that are computed side by side, up to [`LANES`] of them, whose recurrences are alike.
     pub packs: Vec<Range<usize>>,
     /// What is made of the roots.
@@ -79,7 +82,7 @@ pub struct Series {
 /// How the sums over the coefficients of lower order are run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sums {
-    /// Each by itself, written out for every order.
+    /// Each by itself or in pairs, written out for every order.
     Straight,
     /// Several together, in lanes of tables: written out for Taylor steps of orders up to this, if there are
     /// such, and by loops for others.
@@ -152,7 +155,8 @@ impl Series {
         });
         let results = results.collect();
         let folded = scaling.folded;
-        parts.series(results, &folded)
+        let pairs = parts.choice.slots.sums == Sums::Straight;
+        parts.series(results, &folded, pairs)
     }
 
     /// The recurrences of some functions along a solution whose coefficients are given.
@@ -160,7 +164,7 @@ impl Series {
         let parts = Parts::new(functions, states, roots, roots.len());
         let results = roots.iter().map(|&root| SeriesResult::Value(root));
         let results = results.collect();
-        parts.series(results, &BTreeSet::new())
+        parts.series(results, &BTreeSet::new(), false)
     }
 }
 
@@ -206,8 +210,9 @@ impl<'a> Parts<'a> {
         uses
     }
 
-    /// The series with the coefficients of the nodes that are not `folded`.
-    fn series(self, results: Vec<SeriesResult>, folded: &BTreeSet<Id>) -> Series {
+    /// The series with the coefficients of the nodes that are not `folded`, of products in `pairs` if so
+    /// wanted.
+    fn series(self, results: Vec<SeriesResult>, folded: &BTreeSet<Id>, pairs: bool) -> Series {
         let lowered = self.choice.lowered;
         let mut moving = moving(lowered, &self.roots);
         moving.retain(|id| !folded.contains(id));
@@ -216,7 +221,8 @@ impl<'a> Parts<'a> {
         let end = self.first + slots.count();
         let depth = |id: Id| self.choice.depth(id);
         let uses = self.uses();
-        let Packed { nodes, mut packs } = Packed::new((lowered, sums), &moving, depth, &uses);
+        let Packed { nodes, mut packs } =
+            Packed::new((lowered, sums, pairs), &moving, depth, &uses);
         let coefficients = self.choice.coefficients(nodes.into_iter());
         packs.retain(|pack| {
             let mut recurrences = coefficients[pack.clone()].iter().map(|one| one.recurrence);
@@ -226,12 +232,14 @@ impl<'a> Parts<'a> {
                     && !matches!(first, Recurrence::Computed(_))
             })
         });
+        let multiples = multiples_of_powers(lowered, (&coefficients, &packs), &uses);
         let tables = Tables::new((&coefficients, &packs), &results, self.first..end, sums);
         Series {
             slots: end,
             sums,
             tables,
             coefficients,
+            multiples,
             packs,
             inputs: self.inputs,
             operations: self.operations,
@@ -239,6 +247,30 @@ impl<'a> Parts<'a> {
             results,
         }
     }
+}
+
+/// The powers of which one multiple alone is used, which has a slot; none that is in a pack.
+fn multiples_of_powers(
+    lowered: &Lowered,
+    (coefficients, packs): (&[Coefficient], &[Range<usize>]),
+    uses: &HashMap<Id, usize>,
+) -> BTreeMap<Id, Id> {
+    let in_packs: BTreeSet<usize> = packs.iter().cloned().flatten().collect();
+    let single = coefficients.iter().enumerate();
+    let single = single.filter(|(index, _)| !in_packs.contains(index));
+    let single: BTreeMap<Id, &Coefficient> = single.map(|(_, one)| (one.node, one)).collect();
+    let mut multiples = BTreeMap::new();
+    for (&top, _) in single.iter().filter(|(_, one)| one.kept.is_some()) {
+        let mut id = top;
+        while let Some((of, _)) = multiple(lowered, id).filter(|(of, _)| uses.get(of) == Some(&1)) {
+            id = of;
+        }
+        let recurrence = single.get(&id).map(|one| one.recurrence);
+        if id != top && matches!(recurrence, Some(Recurrence::Power { .. })) {
+            multiples.insert(id, top);
+        }
+    }
+    multiples
 }
 
 /// The nodes under the roots that change with the time, children before parents.

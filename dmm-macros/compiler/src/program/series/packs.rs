@@ -4,7 +4,7 @@
 //!
 //! Two nodes are alike if their operations are the same and their operands are alike; all states are, and
 //! all that is constant in time. The lanes follow the operands' lanes, so that most vectors are operands of
-//! others as they are.
+//! others as they are. In straight-line code two products that are alike are worth a vector of two.
 
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
@@ -19,6 +19,8 @@ use crate::program::Lowered;
 pub const LANES: usize = 4;
 /// Fewer nodes are not worth one.
 const LEAST: usize = 3;
+/// Lanes of a vector for two products in straight-line code.
+pub const PAIR: usize = 2;
 
 /// Nodes that change with the time, operands before what is made of them.
 pub(super) struct Packed {
@@ -30,9 +32,10 @@ pub(super) struct Packed {
 
 impl Packed {
     /// The nodes `moving`, children before parents, of which `depth` operations follow on each other;
-    /// `uses` are how often each is an operand or a root.
+    /// `uses` are how often each is an operand or a root. Products that are alike make `pairs`, if so
+    /// wanted.
     pub(super) fn new(
-        (lowered, sums): (&Lowered, Sums),
+        (lowered, sums, pairs): (&Lowered, Sums, bool),
         moving: &[Id],
         depth: impl Fn(Id) -> usize,
         uses: &HashMap<Id, usize>,
@@ -48,6 +51,9 @@ impl Packed {
         packing.pack_operands();
         for run in runs.iter().filter(|run| is_linear(lowered, run[0])) {
             packing.pack_along_operands(run);
+        }
+        if pairs {
+            packing.pair_products(&runs);
         }
         let variables = moving.iter().filter(|&&id| is_variable(lowered, id));
         packing.in_order(variables.copied().collect(), &runs)
@@ -116,6 +122,39 @@ impl<'a> Packing<'a> {
             self.add(pack.to_vec());
             rest = others;
         }
+    }
+
+    /// Pairs of products that are in no pack, and of the squares of their factors: two more sums at once.
+    /// (Squares by themselves gain nothing: 1.1 of the time of a series of Hénon–Heiles.)
+    fn pair_products(&mut self, runs: &[Vec<Id>]) {
+        let lowered = self.lowered;
+        let mut factors = BTreeSet::new();
+        let is_kind = |run: &[Id], is_square: bool| match lowered.dag()[run[0]] {
+            Math::Mul([a, b]) => !is_linear(lowered, run[0]) && (a == b) == is_square,
+            _ => false,
+        };
+        for run in runs.iter().filter(|run| is_kind(run, false)) {
+            if moves_operands(lowered, run) {
+                continue;
+            }
+            for pair in self.left(run).chunks_exact(PAIR) {
+                factors.extend(operands(lowered, pair));
+                self.add(pair.to_vec());
+            }
+        }
+        for run in runs.iter().filter(|run| is_kind(run, true)) {
+            for pair in self.left(run).chunks_exact(PAIR) {
+                if factors.contains(&operands(lowered, pair)[0]) {
+                    self.add(pair.to_vec());
+                }
+            }
+        }
+    }
+
+    /// The nodes of a run that are in no pack.
+    fn left(&self, run: &[Id]) -> Vec<Id> {
+        let left = run.iter().filter(|id| !self.packed.contains(id));
+        left.copied().collect()
     }
 
     /// Packs of what is linear and the operand of a pack, lane by lane.
@@ -324,5 +363,48 @@ mod tests {
         for nodes in 6..100 {
             assert_eq!(of(nodes).iter().sum::<usize>(), nodes);
         }
+    }
+
+    /// The series of a system without interfaces.
+    fn series(declaration: &str) -> crate::program::Series {
+        let tokens = declaration.parse().expect("tokens");
+        let scheme = crate::read(tokens).expect("the declaration holds");
+        let mut program = crate::program::Program::new(&scheme);
+        program.dynamics.remove(0).series
+    }
+
+    #[test]
+    fn products_that_are_alike_make_pairs_with_the_squares_of_their_factors() {
+        let planet = series(
+            "system Planet {
+                state x, y, u, v;
+                param mu = 1;
+                der(x) = u;
+                der(y) = v;
+                der(u) = -mu * x / sqrt(x^2 + y^2)^3;
+                der(v) = -mu * y / sqrt(x^2 + y^2)^3;
+                conserved momentum = x * v - y * u;
+            }",
+        );
+        assert_eq!(planet.sums, Sums::Straight);
+        let sizes: Vec<usize> = planet.packs.iter().map(ExactSizeIterator::len).collect();
+        assert_eq!(sizes, [PAIR, PAIR]);
+        // -mu r⁻³ is computed in place of r⁻³
+        assert_eq!(planet.multiples.len(), 1);
+        // x and y, r⁻³ and its derivative
+        assert_eq!(planet.tables.pairs().count(), 2);
+    }
+
+    #[test]
+    fn squares_alone_make_no_pair() {
+        let star = series(
+            "system Star {
+                state x, y, u, v;
+                hamiltonian energy = (u^2 + v^2) / 2 + (x^2 + y^2) / 2 + x^2 * y - y^3 / 3
+                    in (x, u), (y, v);
+            }",
+        );
+        assert!(star.packs.is_empty());
+        assert_eq!(star.tables.pairs().count(), 0);
     }
 }

@@ -47,8 +47,8 @@ pub enum Recurrence {
         own: Place,
         /// 1/u at order zero
         inverse: Place,
-        /// h du/dh and h dw/dh, where sums run together
-        derivatives: Option<[Place; 2]>,
+        /// h dw/dh
+        derivative: Place,
     },
     /// w = u^v = e^(v ln u)
     VariablePower {
@@ -146,6 +146,15 @@ pub enum Sum {
 }
 
 impl Recurrence {
+    /// The factors of a product.
+    pub fn factors(&self) -> Vec<Place> {
+        match *self {
+            Self::Square(of) => vec![of],
+            Self::Product(of) => of.into(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The sums of those that are nothing but sums; of the others, nothing.
     pub fn sums(&self) -> Vec<Sum> {
         match *self {
@@ -161,9 +170,9 @@ impl Recurrence {
             Self::Power {
                 base,
                 own,
-                derivatives: Some([du, dw]),
+                derivative,
                 ..
-            } => vec![Sum::Inner([own, du]), Sum::Inner([dw, base])],
+            } => [own, derivative].map(|of| Sum::Inner([of, base])).into(),
             Self::Pair {
                 derivative, places, ..
             } => places.map(|place| Sum::Inner([derivative, place])).into(),
@@ -178,15 +187,9 @@ impl Recurrence {
             Self::Linear | Self::Shifted(_) | Self::Missing => Vec::new(),
             Self::Square(_) | Self::Product(_) | Self::Computed(_) => Vec::new(),
             Self::Exponential { .. } | Self::Pair { .. } => Vec::new(),
-            Self::Quotient { inverse, .. } | Self::SquareRoot { inverse, .. } => vec![inverse],
-            Self::Power {
-                derivatives: Some(_),
-                inverse,
-                ..
-            } => vec![inverse],
-            Self::Power {
-                base, own, inverse, ..
-            } => vec![base, own, inverse],
+            Self::Quotient { inverse, .. }
+            | Self::SquareRoot { inverse, .. }
+            | Self::Power { inverse, .. } => vec![inverse],
             Self::VariablePower {
                 base,
                 derivative,

@@ -44,13 +44,6 @@ impl Slots {
         let needed: Vec<Vec<Slot>> = needed.filter(|slots| !slots.is_empty()).collect();
         let sums = Sums::of(needed.len());
         let mut slots: BTreeSet<Slot> = needed.into_iter().flatten().collect();
-        if sums != Sums::Straight {
-            let powers = moving.iter().filter_map(|&id| match lowered.dag()[id] {
-                Math::Pow([a, b]) if lowered.is_fixed(b) => Some([a, id].map(Slot::Derivative)),
-                _ => None,
-            });
-            slots.extend(powers.flatten());
-        }
         let is_state = |slot: &Slot| matches!(slot, Slot::Node(id) if states.contains_key(id));
         slots.retain(|slot| !is_state(slot));
         Self {
@@ -90,13 +83,13 @@ impl Slots {
 
 /// The slots that the recurrence of a node needs.
 fn needed(lowered: &Lowered, id: Id) -> Vec<Slot> {
-    use Slot::{Inverse, Node, Partner, Slope};
+    use Slot::{Derivative, Inverse, Node, Partner, Slope};
     let is_moving = |id: Id| !lowered.is_fixed(id);
     match lowered.dag()[id] {
         Math::Mul([a, b]) if is_moving(a) && is_moving(b) => vec![Node(a), Node(b)],
         Math::Div([_, b]) if is_moving(b) => vec![Node(b), Node(id), Inverse(id)],
         Math::Pow([a, b]) if is_moving(a) && !is_moving(b) => {
-            vec![Node(a), Node(id), Inverse(id)]
+            vec![Node(a), Node(id), Inverse(id), Derivative(id)]
         }
         // u^v = e^(v ln u)
         Math::Pow([a, b]) if is_moving(b) => {

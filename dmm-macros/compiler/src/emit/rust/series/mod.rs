@@ -2,6 +2,7 @@
 //! the runtime's module `series`.
 
 mod packs;
+mod pairs;
 mod recurrences;
 mod sums;
 mod together;
@@ -90,6 +91,7 @@ pub(super) fn body(
         &series.roots,
     );
     let mut writer = Writer::new(scope, states, series, block.fusing(true));
+    writer.keep_states();
     writer.sums();
     let mut packs = series.packs.iter().enumerate().peekable();
     let mut index = 0;

@@ -45,12 +45,16 @@ impl Writer<'_, '_> {
     /// The coefficients of a pack, of this number.
     pub(super) fn pack(&mut self, number: usize, coefficients: &[Coefficient]) {
         let tables = self.tables;
-        let pack = Pack {
+        let pack = || Pack {
             members: array::from_fn(|lane| &coefficients[lane % coefficients.len()]),
             count: coefficients.len(),
             lanes: &tables.packs[number],
         };
-        let Some(value) = self.of_pack(&pack) else {
+        let value = match coefficients {
+            [first, second] => self.of_pair([first, second]),
+            _ => self.of_pack(&pack()),
+        };
+        let Some(value) = value else {
             let message = format!("no recurrence of pack {number}");
             self.block.push(quote!(compile_error!(#message);));
             return;
@@ -87,7 +91,7 @@ impl Writer<'_, '_> {
     /// The reciprocals of values, taken at order zero.
     fn inverses(&mut self, places: Lanes<Place>, values: Lanes<TokenStream>) -> TokenStream {
         let mut taken = Vec::new();
-        let inverses = array::from_fn(|lane| {
+        let inverses: Lanes<TokenStream> = array::from_fn(|lane| {
             let (place, value) = (places[lane], &values[lane]);
             if taken.contains(&place) {
                 let array = self.array(place);
@@ -96,12 +100,12 @@ impl Writer<'_, '_> {
             taken.push(place);
             self.inverse(place, value)
         });
-        self.four(inverses)
+        self.vector(inverses)
     }
 
     /// `start` at order zero, `later` behind.
     fn by_order(&self, start: Lanes<TokenStream>, later: &TokenStream) -> TokenStream {
-        quote!(if at == 0 { dmm::series::Four([#(#start),*]) } else { #later })
+        quote!(if at == 0 { dmm::series::Pack([#(#start),*]) } else { #later })
     }
 
     /// The coefficients of order k of what a pack computes.
@@ -196,22 +200,16 @@ impl Writer<'_, '_> {
         )
     }
 
-    /// u^c with h du/dh and h dw/dh.
+    /// u^c and h dw/dh
     fn powers(&mut self, pack: &Pack<'_>) -> Option<TokenStream> {
-        taken!(pack, Power: base, exponent, inverse, derivatives);
+        taken!(pack, Power: base, exponent, inverse, derivative);
         let &[lane, other] = pack.lanes else {
             return None;
         };
-        let [Some([_, _]), ..] = derivatives else {
-            return None;
-        };
-        let side = |side: usize| derivatives.map(|both| both.map_or(base[0], |both| both[side]));
-        let (du, dw) = (side(0), side(1));
         let bases = base.map(|place| self.newest(place));
         let start = array::from_fn(|lane| self.power_at_start(&bases[lane], exponent[lane]));
         let u = self.newest_of(base);
         let inverse = self.inverses(inverse, bases);
-        self.derivatives_of(&u, du, pack.count);
         let exponent = self.fixed_values(exponent);
         let first = self.row_from(0, lane, &quote!(0));
         let (sum, other) = (self.inner_sums_from(lane), self.inner_sums_from(other));
@@ -219,8 +217,10 @@ impl Writer<'_, '_> {
         let later = Self::call("power_from", &[u, exponent, first, inverse, sums]);
         let value = self.by_order(start, &later);
         let elements = self.elements(&value, pack.count);
-        let w = self.four(array::from_fn(|lane| elements[lane % pack.count].clone()));
-        self.derivatives_of(&w, dw, pack.count);
+        let elements: Lanes<TokenStream> =
+            array::from_fn(|lane| elements[lane % pack.count].clone());
+        let w = self.vector(elements);
+        self.derivatives_of(&w, derivative, pack.count);
         Some(w)
     }
 
@@ -298,7 +298,7 @@ impl Writer<'_, '_> {
             _ => None,
         });
         let factors: Vec<[Id; 2]> = factors.into_iter().collect::<Option<_>>()?;
-        let side = |side: usize| array::from_fn(|lane| factors[lane][side]);
+        let side = |side: usize| -> Lanes<Id> { array::from_fn(|lane| factors[lane][side]) };
         let (c, u) = (self.fixed_values(side(0)), self.values(side(1)));
         let (c, v) = (minus(minus_product, &c), self.values(others));
         let v = minus(minus_other, &v);

@@ -36,15 +36,17 @@ impl Writer<'_, '_> {
                 exponent,
                 own,
                 inverse,
-                derivatives,
+                derivative,
             } => {
-                let value = self.power((base, exponent), own, inverse, derivatives);
-                if let Some([_, derivative]) = derivatives {
-                    self.block.define(id, &value);
-                    self.derivative(id, derivative);
-                    return None;
+                let multiple = self.multiples.get(&id).copied();
+                let value = self.power([base, own, derivative], exponent, (inverse, multiple));
+                self.block.define(id, &value);
+                self.derivative(id, derivative);
+                if let Some(multiple) = multiple {
+                    let value = self.block.value(id);
+                    self.block.set_value(multiple, value);
                 }
-                value
+                return None;
             }
             Recurrence::VariablePower {
                 base,
@@ -66,33 +68,28 @@ impl Writer<'_, '_> {
         quote!(#slot[0])
     }
 
-    /// u^c, and h du/dh where sums run together.
+    /// u^c, or a multiple of it.
     fn power(
         &mut self,
-        (base, exponent): (Place, Id),
-        own: Place,
-        inverse: Place,
-        derivatives: Option<[Place; 2]>,
+        [base, own, derivative]: [Place; 3],
+        exponent: Id,
+        (inverse, multiple): (Place, Option<Id>),
     ) -> TokenStream {
         let u = self.newest(base);
-        let start = self.power_at_start(&u, exponent);
+        let mut start = self.power_at_start(&u, exponent);
+        if let Some(multiple) = multiple {
+            (_, start) = self.multiple(multiple, start);
+        }
         let inverse = self.inverse(inverse, &u);
         let exponent = self.fixed(exponent);
-        let later = match derivatives {
-            Some([du, dw]) => {
-                let d = Self::call("derivative", std::slice::from_ref(&u));
-                self.set(du, &d);
-                let [first, second] = [Sum::Inner([own, du]), Sum::Inner([dw, base])]
-                    .map(|sum| self.sums.get(&sum).cloned().unwrap_or_default());
-                let w = self.first(own);
-                let sums = quote!([#first, #second]);
-                Self::call("power_from", &[u, exponent, w, inverse, sums])
-            }
-            None => {
-                let [u, w] = [base, own].map(|place| self.array(place));
-                Self::call("power", &[quote!(&#u), exponent, quote!(&#w), inverse])
-            }
-        };
+        let by_pairs = self.power_by_pairs([base, own, derivative], &exponent, &inverse);
+        let later = by_pairs.unwrap_or_else(|| {
+            let [first, second] = [own, derivative]
+                .map(|of| self.sums.get(&Sum::Inner([of, base])).cloned())
+                .map(Option::unwrap_or_default);
+            let sums = quote!([#first, #second]);
+            Self::call("power_from", &[u, exponent, self.first(own), inverse, sums])
+        });
         quote!(if at == 0 { #start } else { #later })
     }
 
@@ -335,7 +332,10 @@ impl Writer<'_, '_> {
     ) {
         let [sine, cosine] = functions.map(|one| self.start(one, argument));
         let u = self.derivative(argument, derivative);
-        let [next_cosine, next_sine] = places.map(|place| self.integral(&u, derivative, place));
+        let [next_cosine, next_sine] = match self.both_integrals(&u, derivative, places) {
+            Some(both) => both,
+            None => places.map(|place| self.integral(&u, derivative, place)),
+        };
         let next_cosine = minus(is_negative, &next_cosine);
         let names = functions.map(|one| self.block.unused_name(one.name()));
         let [s, c] = &names;

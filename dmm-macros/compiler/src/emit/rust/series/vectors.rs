@@ -1,6 +1,7 @@
 //! Vectors of coefficients: their names, and the rows of tables that hold them.
 
 use std::array;
+use std::ops::Range;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -8,7 +9,7 @@ use quote::quote;
 use super::writer::Writer;
 use crate::algebra::Id;
 use crate::emit::rust::paths;
-use crate::program::series::{LANES, Place};
+use crate::program::series::{LANES, PAIR, Place};
 
 /// What each lane has.
 pub(super) type Lanes<T> = [T; LANES];
@@ -19,7 +20,9 @@ impl Writer<'_, '_> {
         let text = value.to_string();
         let known = self.vectors.values().find(|name| **name == text).cloned();
         let name = known.unwrap_or_else(|| {
-            let name = self.block.unused_name("four");
+            let name = self
+                .block
+                .unused_name(if count == PAIR { "two" } else { "four" });
             self.block.push(quote!(let #name = #value;));
             name
         });
@@ -29,18 +32,20 @@ impl Writer<'_, '_> {
                 quote!(#name.0[#lane])
             })
             .collect();
-        let lanes: Lanes<String> = array::from_fn(|lane| elements[lane % count].to_string());
-        self.vectors.insert(lanes, name);
+        let width = if count == PAIR { PAIR } else { LANES };
+        let lanes = elements.iter().cycle().take(width);
+        self.vectors
+            .insert(lanes.map(ToString::to_string).collect(), name);
         elements
     }
 
     /// The vector of some values: one that has a name, if it has these, else what `new` makes.
-    fn four_by(
+    fn vector_by<const L: usize>(
         &self,
-        values: &Lanes<TokenStream>,
-        new: impl FnOnce(&Lanes<String>) -> TokenStream,
+        values: &[TokenStream; L],
+        new: impl FnOnce(&[String]) -> TokenStream,
     ) -> TokenStream {
-        let texts = values.each_ref().map(TokenStream::to_string);
+        let texts: Vec<String> = values.iter().map(TokenStream::to_string).collect();
         match self.vectors.get(&texts) {
             Some(name) => quote!(#name),
             None => new(&texts),
@@ -48,36 +53,36 @@ impl Writer<'_, '_> {
     }
 
     /// The vector of some values.
-    pub(super) fn four(&self, values: Lanes<TokenStream>) -> TokenStream {
-        self.four_by(&values, |[first, rest @ ..]| {
-            if rest.iter().all(|other| other == first) {
-                let [value, ..] = &values;
-                quote!(dmm::series::Four::all(#value))
+    pub(super) fn vector<const L: usize>(&self, values: [TokenStream; L]) -> TokenStream {
+        self.vector_by(&values, |texts| {
+            if texts.iter().all(|text| *text == texts[0]) {
+                let value = &values[0];
+                quote!(dmm::series::Pack::all(#value))
             } else {
-                quote!(dmm::series::Four([#(#values),*]))
+                quote!(dmm::series::Pack([#(#values),*]))
             }
         })
     }
 
-    pub(super) fn values(&mut self, ids: Lanes<Id>) -> TokenStream {
+    pub(super) fn values<const L: usize>(&mut self, ids: [Id; L]) -> TokenStream {
         let values = ids.map(|id| self.value(id));
-        self.four(values)
+        self.vector(values)
     }
 
-    pub(super) fn fixed_values(&mut self, ids: Lanes<Id>) -> TokenStream {
+    pub(super) fn fixed_values<const L: usize>(&mut self, ids: [Id; L]) -> TokenStream {
         let values = ids.map(|id| self.fixed(id));
-        self.four(values)
+        self.vector(values)
     }
 
     /// The coefficients of order k of series.
-    pub(super) fn newest_of(&self, places: Lanes<Place>) -> TokenStream {
-        self.four(places.map(|place| self.newest(place)))
+    pub(super) fn newest_of<const L: usize>(&self, places: [Place; L]) -> TokenStream {
+        self.vector(places.map(|place| self.newest(place)))
     }
 
     /// A sum of each, from a lane on.
     pub(super) fn sums_from(&self, names: Option<&Ident>, lane: usize) -> TokenStream {
         let lane = paths::count(lane);
-        quote!(dmm::series::Four::of_lanes(&#names, #lane))
+        quote!(dmm::series::Pack::<_, 4>::of_lanes(&#names, #lane))
     }
 
     pub(super) fn inner_sums_from(&self, lane: usize) -> TokenStream {
@@ -92,31 +97,57 @@ impl Writer<'_, '_> {
     pub(super) fn row_from(&self, table: usize, lane: usize, order: &TokenStream) -> TokenStream {
         let range = &self.tables.ranges()[table];
         let [from, to, lanes, lane] = [range.start, range.end, range.len(), lane].map(paths::count);
-        quote!(dmm::series::four::<_, _, #lanes>(&series[#from..#to], #order, #lane))
+        quote!(dmm::series::pack::<_, _, #lanes, 4>(&series[#from..#to], #order, #lane))
     }
 
     /// The coefficients of order k of series, as one vector.
-    fn row_of(&self, places: Lanes<Place>) -> TokenStream {
+    fn row_of<const L: usize>(&self, places: [Place; L]) -> TokenStream {
         let values = places.map(|place| self.newest(place));
-        self.four_by(
+        self.vector_by(
             &values,
-            |_| quote!(dmm::series::Four::joined([#(#values),*])),
+            |_| quote!(dmm::series::Pack::joined([#(#values),*])),
         )
     }
 
     /// Keeps the coefficients of order k in the tables.
     pub(super) fn keep_rows(&mut self) {
         let tables = self.tables;
-        for (column, range) in tables.columns().iter().zip(tables.ranges()) {
-            let [from, to] = [range.start, range.end].map(paths::count);
+        for (column, range) in tables.shared() {
             for (number, places) in column.chunks(LANES).enumerate() {
-                let places = array::from_fn(|lane| places[lane % places.len()]);
-                let (row, lane) = (self.row_of(places), paths::count(LANES * number));
-                self.block.push(quote! {
-                    let row = #row;
-                    dmm::series::set_four(k, &mut series[#from..#to], #lane, row);
-                });
+                let lanes: Lanes<Place> = array::from_fn(|lane| places[lane % places.len()]);
+                let row = self.row_of(lanes);
+                self.keep(&range, LANES * number, &row);
             }
         }
+        for (pair, range) in tables.pairs().filter(|(pair, _)| !is_of_states(pair)) {
+            let row = self.row_of(pair);
+            self.keep(&range, 0, &row);
+        }
     }
+
+    /// Keeps those of pairs of states, which are known first.
+    pub(super) fn keep_states(&mut self) {
+        for (pair, range) in self.tables.pairs().filter(|(pair, _)| is_of_states(pair)) {
+            let row = self.newest_of(pair);
+            let values = pair.map(|place| self.newest(place).to_string());
+            let name = self.block.unused_name("two");
+            self.block.push(quote!(let #name = #row;));
+            self.vectors.insert(values.to_vec(), name.clone());
+            self.keep(&range, 0, &quote!(#name));
+        }
+    }
+
+    /// Keeps a vector in the lanes from `lane` on of the table at `range`.
+    fn keep(&mut self, range: &Range<usize>, lane: usize, row: &TokenStream) {
+        let [from, to, lane] = [range.start, range.end, lane].map(paths::count);
+        self.block.push(quote! {
+            let row = #row;
+            dmm::series::set_pack(&mut series[#from..#to], at, #lane, row);
+        });
+    }
+}
+
+/// Whether two series are those of states.
+fn is_of_states(pair: &[Place; PAIR]) -> bool {
+    pair.iter().all(|place| matches!(place, Place::State(_)))
 }

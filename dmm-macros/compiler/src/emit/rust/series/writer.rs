@@ -11,7 +11,7 @@ use crate::emit::rust::code::Block;
 use crate::emit::rust::function::Scope;
 use crate::emit::rust::paths;
 use crate::program::series::{
-    Coefficient, Factor, LANES, Later, Place, Scaled, Series, Sum, Tables, multiple,
+    Coefficient, Factor, Later, Place, Scaled, Series, Sum, Tables, multiple,
 };
 
 /// Writes the coefficient of one node after the other.
@@ -20,6 +20,8 @@ pub(super) struct Writer<'a, 'b> {
     pub(super) block: Block<'b>,
     pub(super) tables: &'b Tables,
     states: States,
+    /// By power, the multiple in whose place it is.
+    pub(super) multiples: &'b BTreeMap<Id, Id>,
     /// How many operations follow on each other until the coefficients of nodes are known.
     depths: BTreeMap<Id, usize>,
     /// The coefficients of order k that are known.
@@ -31,7 +33,7 @@ pub(super) struct Writer<'a, 'b> {
     /// The names of all sums of both kinds.
     pub(super) names_of_sums: [Option<Ident>; 2],
     /// The names of vectors, by their elements.
-    pub(super) vectors: BTreeMap<[String; LANES], Ident>,
+    pub(super) vectors: BTreeMap<Vec<String>, Ident>,
 }
 
 impl<'a, 'b> Writer<'a, 'b> {
@@ -48,6 +50,7 @@ impl<'a, 'b> Writer<'a, 'b> {
             block,
             tables: &series.tables,
             states,
+            multiples: &series.multiples,
             depths: depths.collect(),
             newest: BTreeMap::new(),
             halves: BTreeMap::new(),
@@ -221,7 +224,7 @@ impl<'a, 'b> Writer<'a, 'b> {
 
     /// The node that a node times a scale is a multiple of, and the factor, which nothing of order k is
     /// needed for.
-    fn multiple(&mut self, mut id: Id, mut scale: TokenStream) -> (Id, TokenStream) {
+    pub(super) fn multiple(&mut self, mut id: Id, mut scale: TokenStream) -> (Id, TokenStream) {
         let mut factors = Vec::new();
         while let Some((of, factor)) = multiple(self.scope.lowered, id) {
             match factor {
