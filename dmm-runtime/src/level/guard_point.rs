@@ -20,7 +20,7 @@ const MOST_CORRECTIONS: u32 = 12;
 /// Iterations towards a crossing, of which some may halve its bracket.
 const MOST_HALVINGS: u32 = 100;
 /// Halley's method comes closer than [`SMALL`] by a correction smaller than this part of the step.
-const CLOSE: f64 = 1e-4;
+const CLOSE: f64 = 4e-4;
 /// A correction of the time smaller than this part of the step is made along the field.
 const SMALL: f64 = 1e-8;
 
