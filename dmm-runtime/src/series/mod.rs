@@ -13,15 +13,14 @@
 //! those of (h/σ)ᵏ then.
 
 mod pack;
+mod pairs;
 mod sums;
 #[cfg(test)]
 mod tests;
 mod unroll;
 
-pub use pack::{
-    Arithmetic, Columns, Common, Pack, Rows, integrals, pack, power_by_pairs, products, set_pack,
-    squares,
-};
+pub use pack::{Arithmetic, Pack, pack, set_pack};
+pub use pairs::{Columns, Common, Rows, integrals, power_by_pairs, products, squares};
 pub use sums::{half_sums, inner_sums, row};
 pub use unroll::{Choice, Coefficients, Mixed, Rolled, Straight, Unroll};
 
