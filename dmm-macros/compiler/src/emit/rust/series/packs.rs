@@ -45,14 +45,13 @@ impl Writer<'_, '_> {
     /// The coefficients of a pack, of this number.
     pub(super) fn pack(&mut self, number: usize, coefficients: &[Coefficient]) {
         let tables = self.tables;
-        let pack = || Pack {
-            members: array::from_fn(|lane| &coefficients[lane % coefficients.len()]),
-            count: coefficients.len(),
-            lanes: &tables.packs[number],
-        };
         let value = match coefficients {
             [first, second] => self.of_pair([first, second]),
-            _ => self.of_pack(&pack()),
+            _ => self.of_pack(&Pack {
+                members: array::from_fn(|lane| &coefficients[lane % coefficients.len()]),
+                count: coefficients.len(),
+                lanes: &tables.packs[number],
+            }),
         };
         let Some(value) = value else {
             let message = format!("no recurrence of pack {number}");

@@ -81,8 +81,8 @@ impl Writer<'_, '_> {
 
     /// A sum of each, from a lane on.
     pub(super) fn sums_from(&self, names: Option<&Ident>, lane: usize) -> TokenStream {
-        let lane = paths::count(lane);
-        quote!(dmm::series::Pack::<_, 4>::of_lanes(&#names, #lane))
+        let [lane, width] = [lane, LANES].map(paths::count);
+        quote!(dmm::series::Pack::<_, #width>::of_lanes(&#names, #lane))
     }
 
     pub(super) fn inner_sums_from(&self, lane: usize) -> TokenStream {
@@ -96,8 +96,9 @@ impl Writer<'_, '_> {
     /// The coefficients of an order in a table, of this number.
     pub(super) fn row_from(&self, table: usize, lane: usize, order: &TokenStream) -> TokenStream {
         let range = &self.tables.ranges()[table];
-        let [from, to, lanes, lane] = [range.start, range.end, range.len(), lane].map(paths::count);
-        quote!(dmm::series::pack::<_, _, #lanes, 4>(&series[#from..#to], #order, #lane))
+        let [from, to, lanes] = [range.start, range.end, range.len()].map(paths::count);
+        let [lane, width] = [lane, LANES].map(paths::count);
+        quote!(dmm::series::pack::<_, _, #lanes, #width>(&series[#from..#to], #order, #lane))
     }
 
     /// The coefficients of order k of series, as one vector.
