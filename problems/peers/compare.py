@@ -11,7 +11,7 @@ import argparse
 import csv
 import pathlib
 
-from heyoka_peer import Heyoka, cost_of_python, exact_state
+from heyoka_peer import CostOfPython, Heyoka, exact_state
 from picture import work_precision
 from program import Program
 from settings import LONGEST, Setting, chosen, duel, spread
@@ -73,12 +73,12 @@ def settings_of(program, problem, sample):
 
 
 def settings_of_heyoka(description, sample):
-    costs = cost_of_python(description, 1e-9, min(sample["t"], SHORT))
-    a_run, a_crossing = (1e6 * cost for cost in costs)
+    overhead = CostOfPython(description, 1e-9, min(sample["t"], SHORT))
+    a_run, a_crossing = 1e6 * overhead.a_run, 1e6 * overhead.a_crossing
     print(f"  heyoka: Python takes {a_run:.1f} µs a run, {a_crossing:.2f} µs a crossing")
     for tolerance in TOLERANCES:
         run = Heyoka(description, tolerance).run
-        yield Setting("heyoka", tolerance, run, sample, *costs)
+        yield Setting("heyoka", tolerance, run, sample, overhead)
 
 
 class Report:
@@ -104,12 +104,12 @@ class Report:
             + [setting.steps, setting.seconds, setting.net]
         )
 
-    def level(self, problem, level, ours, peer, pairs):
-        ratios = spread([b / a for a, b in pairs])
-        net = spread([(b - peer.overhead) / a for a, b in pairs])
+    def level(self, problem, level, ours, peer, rounds):
+        ratios = spread([b / a for a, b, _ in rounds])
+        net = spread([own / a for a, _, own in rounds])
         sides = [
             [side.who, side.tolerance, side.error, side.steps, *spread(times)]
-            for side, times in zip((ours, peer), zip(*pairs))
+            for side, times in zip((ours, peer), zip(*rounds))
         ]
         self.ratios.writerow([problem, ours.t_end, level] + sides[0] + sides[1] + [*ratios, *net])
         describe = lambda side, seconds: (

@@ -12,7 +12,12 @@ import heyoka as hy
 import numpy as np
 
 from formulas import Formulas
+from settings import LEAST_REPEATS, turn
 
+# seconds of a run to where it starts, or less
+SHORTEST = 2e-6
+# measurements of what Python takes, of which the median counts
+ROUNDS = 15
 #: of exact states: twice as many as a double has
 BITS = 113
 
@@ -80,14 +85,18 @@ class Heyoka:
         self.crossings = 0
         return integrator.propagate_until(t_end, callback=callback)[3]
 
-    def run(self, t_end, repeats):
+    def run(self, t_end, repeats, callback=None):
         """Seconds of each repeat, final state, crossings, steps."""
         seconds = []
         for _ in range(repeats):
             start = time.thread_time()
-            steps = self.once(t_end)
+            steps = self.once(t_end, callback)
             seconds.append(time.thread_time() - start)
         return seconds, list(self.integrator.state), self.crossings, steps
+
+    def run_with_entries(self, t_end, repeats):
+        """The same, with a callback at each step that does nothing."""
+        return self.run(t_end, repeats, lambda integrator: True)
 
 
 def exact_state(description, t_end):
@@ -100,21 +109,39 @@ def exact_state(description, t_end):
     return [float(value) for value in integrator.state]
 
 
-def cost_of_python(description, tolerance, t_end, rounds=31):
-    """Seconds that Python takes for each run and for each crossing. The former is the time of a
-    run to where it starts. The latter is the body of the callback, found by doing it more often
-    than once, and entering Python, found by a callback at each step that does nothing."""
-    smooth = Heyoka(description | {"interfaces": []}, tolerance)
-    if not description["interfaces"]:
-        return min(smooth.run(0.0, rounds)[0]), 0.0
-    twice, often = (Heyoka(description, tolerance, bodies) for bodies in (2, 6))
-    runs, bodies, entries = [], [], []
-    for _ in range(rounds):
-        runs.append(twice.run(0.0, 1)[0][0])
-        difference = often.run(t_end, 1)[0][0] - twice.run(t_end, 1)[0][0]
-        bodies.append(difference / (often.crossings - twice.crossings))
-        plain = smooth.run(t_end, 1)[0][0]
-        start = time.thread_time()
-        steps = smooth.once(t_end, lambda integrator: True)
-        entries.append((time.thread_time() - start - plain) / steps)
-    return min(runs), statistics.median(bodies) + statistics.median(entries)
+class CostOfPython:
+    """The seconds that Python takes of a run: those to where it starts, and those of each crossing. The
+    latter are the body of the callback, found by doing it more often than once, and entering Python,
+    found by a callback at each step that does nothing."""
+
+    def __init__(self, description, tolerance, t_end):
+        smooth = Heyoka(description | {"interfaces": []}, tolerance)
+        self.start, self.t_end, self.kinds = smooth.run, t_end, {}
+        if description["interfaces"]:
+            twice, often = (Heyoka(description, tolerance, bodies) for bodies in (2, 6))
+            self.start = twice.run
+            runs = [twice.run, often.run, smooth.run, smooth.run_with_entries]
+            # with what one of each takes
+            self.kinds = {run: min(run(t_end, LEAST_REPEATS)[0]) for run in runs}
+            self.bodies, self.entries = often.crossings - twice.crossings, smooth.once(t_end)
+        rounds = zip(*(self.each() for _ in range(ROUNDS)))
+        self.a_run, self.a_crossing = map(statistics.median, rounds)
+
+    def each(self):
+        """Seconds of a run to where it starts, and of a crossing, as they are now."""
+        a_run = turn(self.start, 0.0, SHORTEST)
+        if not self.kinds:
+            return a_run, 0.0
+        twice, often, plain, entered = (
+            turn(run, self.t_end, about) for run, about in self.kinds.items()
+        )
+        return a_run, (often - twice) / self.bodies + (entered - plain) / self.entries
+
+    def about(self, crossings):
+        """Seconds of a run with so many crossings."""
+        return self.a_run + self.a_crossing * crossings
+
+    def now(self, crossings):
+        """The same, measured anew: the processor's clock changes."""
+        a_run, a_crossing = self.each()
+        return a_run + a_crossing * crossings

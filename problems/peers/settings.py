@@ -1,5 +1,5 @@
-"""Settings of integrators: what they take and reach, the fastest one for an error, and pairs of
-runs of two in turn."""
+"""Settings of integrators: what they take and reach, the fastest one for an error, and runs of two in
+turn."""
 
 import math
 import statistics
@@ -16,24 +16,28 @@ TURN, LEAST_REPEATS, MOST_REPEATS = 0.005, 3, 999
 class Setting:
     """An integrator at a tolerance on a problem: what it takes and reaches."""
 
-    def __init__(self, who, tolerance, run, sample, a_run=0.0, a_crossing=0.0):
+    def __init__(self, who, tolerance, run, sample, overhead=None):
+        """`overhead`: what of a run is not the integrator's own, as `CostOfPython` has it."""
         self.who, self.tolerance, self.function, self.t_end = who, tolerance, run, sample["t"]
         first, x, crossings, self.steps = run(self.t_end, 1)
         self.error = math.dist(x, sample["x"]) if crossings == sample["crossings"] else math.inf
-        # what is not the integrator's own
-        self.overhead = a_run + a_crossing * crossings
+        self.overhead, self.crossings = overhead, crossings
         trials = LEAST_TRIALS + min(50, int(TRIAL / first[0]))
         self.seconds = min(run(self.t_end, trials)[0])
-
-    @property
-    def net(self):
-        return self.seconds - self.overhead
+        self.net = self.seconds - (overhead.about(crossings) if overhead else 0.0)
 
     def turn(self):
-        repeats = min(MOST_REPEATS, max(LEAST_REPEATS, round(TURN / self.seconds)))
-        if self.seconds > 2 * TURN:
-            repeats = 1
-        return statistics.median(self.function(self.t_end, repeats)[0])
+        """Seconds of a run, and what of them is the integrator's own."""
+        seconds = turn(self.function, self.t_end, self.seconds)
+        return seconds, seconds - (self.overhead.now(self.crossings) if self.overhead else 0.0)
+
+
+def turn(run, t_end, about):
+    """The median of as many runs, of `about` so many seconds, as make a turn."""
+    repeats = min(MOST_REPEATS, max(LEAST_REPEATS, round(TURN / about)))
+    if about > 2 * TURN:
+        repeats = 1
+    return statistics.median(run(t_end, repeats)[0])
 
 
 def chosen(settings, level):
@@ -49,8 +53,9 @@ def chosen(settings, level):
 
 
 def duel(ours, peer):
-    """Pairs of times, in turn."""
-    return [(ours.turn(), peer.turn()) for _ in range(PAIRS)]
+    """Times in turn: ours, the peer's, and of the latter what is its own. All are measured in the same
+    moment, because the processor's clock changes."""
+    return [(ours.turn()[0], *peer.turn()) for _ in range(PAIRS)]
 
 
 def spread(values):

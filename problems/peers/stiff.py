@@ -80,9 +80,9 @@ class Table:
         """A level: our setting beside those of the peers."""
         own, cells = [], []
         for peer in peers:
-            pairs = duel(ours, peer)
-            ratios = spread([b / a for a, b in pairs])
-            seconds = [statistics.median(times) for times in zip(*pairs)]
+            rounds = duel(ours, peer)
+            ratios = spread([b / a for a, b, _ in rounds])
+            seconds = [statistics.median(times) for times in zip(*rounds)]
             own.append(seconds[0])
             cell = described(peer, level, seconds[1])
             if max(ours.error, peer.error) <= level:
