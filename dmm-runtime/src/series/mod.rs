@@ -338,37 +338,17 @@ pub fn square_root<S: Scalar, K: Order, const P: usize>(k: K, u: S, w: &[S; P], 
     square_root_from(k, u, w[k.get() / 2], inverse, half(k, w))
 }
 
-/// Coefficient k ≥ 1 of w = u^a; `inverse` is 1/u₀.
+/// Coefficient k ≥ 1 of w = u^a from d = h dw/dh; `inverse` is 1/u₀.
 #[inline(always)]
 pub fn power<S: Scalar, K: Order, const P: usize>(
     k: K,
     u: &[S; P],
     a: S,
-    w: &[S; P],
-    inverse_base: S,
+    [w, d]: [&[S; P]; 2],
+    inverse: S,
 ) -> S {
-    let k = k.get();
-    let mut sum = S::from_f64(0.0);
-    if k.is_multiple_of(2) {
-        sum = power_term(k, k / 2, [u, w], a, sum);
-    }
-    for j in (1..k.div_ceil(2)).rev() {
-        sum = power_term(k, k - j, [u, w], a, power_term(k, j, [u, w], a, sum));
-    }
-    u[k].fused(a * w[0] * inverse_base, sum * (inverse_base * inverse(k)))
-}
-
-/// A sum with (a (k − j) − j) wⱼ uₖ₋ⱼ.
-#[inline(always)]
-fn power_term<S: Scalar, const P: usize>(
-    k: usize,
-    j: usize,
-    [u, w]: [&[S; P]; 2],
-    a: S,
-    sum: S,
-) -> S {
-    let weight = a * S::from_f64((k - j) as f64) - S::from_f64(j as f64);
-    (weight * w[j]).fused(u[k - j], sum)
+    let sums = [inner(k, w, u), inner(k, d, u)];
+    power_from(k, u[k.get()], a, w[0], inverse, sums)
 }
 
 /// Coefficient k ≥ 1 of ∫ v du from uₖ and d = h du/dh: of eᵘ with v = eᵘ, of sin u with v = cos u …

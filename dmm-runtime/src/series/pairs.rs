@@ -5,30 +5,30 @@ use super::pack::{Arithmetic, Pack, pack};
 use super::{Order, inverse, product_from, square_from};
 use crate::arithmetic::Scalar;
 
-/// The coefficients of a pack of series, by order.
-pub trait Columns<S, const L: usize>: Copy {
+/// The coefficients of two series, by order.
+pub trait Columns<S>: Copy {
     /// Those of an order.
-    fn of(self, order: usize) -> Pack<S, L>;
+    fn of(self, order: usize) -> Pack<S, 2>;
 }
 
-/// A table of as many lanes as the pack has.
+/// A table of two lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a, S, const P: usize>(pub &'a [[S; P]]);
 
-impl<S: Scalar, const P: usize, const L: usize> Columns<S, L> for Rows<'_, S, P> {
+impl<S: Scalar, const P: usize> Columns<S> for Rows<'_, S, P> {
     #[inline(always)]
-    fn of(self, order: usize) -> Pack<S, L> {
-        pack::<S, P, L, L>(self.0, order, 0)
+    fn of(self, order: usize) -> Pack<S, 2> {
+        pack::<S, P, 2, 2>(self.0, order, 0)
     }
 }
 
-/// The array that all of a pack have in common.
+/// The array that both have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Common<'a, S, const P: usize>(pub &'a [S; P]);
 
-impl<S: Scalar, const P: usize, const L: usize> Columns<S, L> for Common<'_, S, P> {
+impl<S: Scalar, const P: usize> Columns<S> for Common<'_, S, P> {
     #[inline(always)]
-    fn of(self, order: usize) -> Pack<S, L> {
+    fn of(self, order: usize) -> Pack<S, 2> {
         Pack::all(self.0[order])
     }
 }
@@ -36,12 +36,12 @@ impl<S: Scalar, const P: usize, const L: usize> Columns<S, L> for Common<'_, S, 
 /// Σ aⱼ bₖ₋ⱼ over 1 ≤ j < k, or over 1 ≤ j < k − 1 `without_newest`: from the middle on, so that what
 /// was computed last enters last.
 #[inline(always)]
-fn inner<S: Scalar, const L: usize>(
+fn inner<S: Scalar>(
     k: usize,
-    a: impl Columns<S, L>,
-    b: impl Columns<S, L>,
+    a: impl Columns<S>,
+    b: impl Columns<S>,
     without_newest: bool,
-) -> Pack<S, L> {
+) -> Pack<S, 2> {
     let mut sum = Pack::of(0.0);
     if k.is_multiple_of(2) && k > usize::from(without_newest) * 2 {
         sum = a.of(k / 2).times_plus(b.of(k / 2), sum);
@@ -55,23 +55,20 @@ fn inner<S: Scalar, const L: usize>(
     sum
 }
 
-/// Coefficient k of the products uv of a pack, from uₖ and vₖ and the coefficients below.
+/// Coefficient k of two products uv, from uₖ and vₖ and the coefficients below.
 #[inline(always)]
-pub fn products<S: Scalar, K: Order, const L: usize>(
+pub fn products<S: Scalar, K: Order>(
     k: K,
-    u: (impl Columns<S, L>, Pack<S, L>),
-    v: (impl Columns<S, L>, Pack<S, L>),
-) -> Pack<S, L> {
+    u: (impl Columns<S>, Pack<S, 2>),
+    v: (impl Columns<S>, Pack<S, 2>),
+) -> Pack<S, 2> {
     let sum = inner(k.get(), u.0, v.0, false);
     product_from(k, [u.0.of(0), u.1], [v.0.of(0), v.1], sum)
 }
 
-/// Coefficient k of the squares u² of a pack, from uₖ and the coefficients below.
+/// Coefficient k of two squares u², from uₖ and the coefficients below.
 #[inline(always)]
-pub fn squares<S: Scalar, K: Order, const L: usize>(
-    k: K,
-    u: (impl Columns<S, L>, Pack<S, L>),
-) -> Pack<S, L> {
+pub fn squares<S: Scalar, K: Order>(k: K, u: (impl Columns<S>, Pack<S, 2>)) -> Pack<S, 2> {
     let order = k.get();
     let mut sum = Pack::of(0.0);
     for j in (1..order.div_ceil(2)).rev() {

@@ -146,14 +146,19 @@ impl<S: Scalar, K: Order, const P: usize> AtOrder<'_, S, K, P> {
                 integer,
                 own,
                 inverse,
+                derivative,
             } => {
                 let inverse = self.inverse(inverse, self.array(base)[0]);
                 let (u, exponent) = (self.array(base), self.fixed(exponent));
                 let value = match (at, integer) {
                     (0, Some(n)) => u[0].powi(n),
                     (0, None) => u[0].powf(exponent),
-                    _ => series::power(k, u, exponent, self.array(own), inverse),
+                    _ => {
+                        let w = [own, derivative].map(|place| self.array(place));
+                        series::power(k, u, exponent, w, inverse)
+                    }
                 };
+                self.derivative(value, derivative);
                 (to, value)
             }
             Step::Computed(to, own) => (to, self.array(own)[at]),

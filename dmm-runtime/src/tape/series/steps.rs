@@ -38,6 +38,7 @@ pub(super) enum Step {
         integer: Option<i32>,
         own: Place,
         inverse: Place,
+        derivative: Place,
     },
     Pair {
         functions: [Function; 2],

@@ -60,7 +60,7 @@ impl Translation<'_> {
                 exponent,
                 own,
                 inverse,
-                ..
+                derivative,
             } => {
                 let integer = self.lowered.dag().as_integer(exponent);
                 Step::Power {
@@ -70,6 +70,7 @@ impl Translation<'_> {
                     integer: integer.and_then(|n| i32::try_from(n).ok()),
                     own,
                     inverse,
+                    derivative,
                 }
             }
             Recurrence::Pair {

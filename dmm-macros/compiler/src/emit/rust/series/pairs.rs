@@ -4,8 +4,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::writer::Writer;
-use crate::emit::rust::paths;
+use super::writer::{Writer, arrays};
 use crate::program::series::{Coefficient, PAIR, Place, Recurrence};
 
 impl Writer<'_, '_> {
@@ -39,8 +38,8 @@ impl Writer<'_, '_> {
     /// The table of a pair.
     fn rows(&self, of: [Place; PAIR]) -> Option<TokenStream> {
         let (_, range) = self.tables.pairs().find(|(pair, _)| *pair == of)?;
-        let [from, to] = [range.start, range.end].map(paths::count);
-        Some(quote!(&series[#from..#to]))
+        let table = arrays(&range);
+        Some(quote!(&#table))
     }
 
     /// Coefficient k ≥ 1 of w = u^c by a table of w and h dw/dh, if there is one.

@@ -7,7 +7,7 @@ use std::ops::Range;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-use super::writer::Writer;
+use super::writer::{Writer, arrays};
 use crate::emit::rust::paths;
 use crate::program::series::{Place, Sum};
 
@@ -46,9 +46,9 @@ impl Writer<'_, '_> {
         }
         let names = self.block.unused_name("sums");
         let (scalar, function) = (self.scope.scalar, format_ident!("{name}"));
-        let [from, to, lanes] = [range.start, range.end, lanes].map(paths::count);
+        let (table, lanes) = (arrays(&range), paths::count(lanes));
         self.block.push(quote! {
-            let #names: [#scalar; #lanes] = dmm::series::#function(k, &series[#from..#to]);
+            let #names: [#scalar; #lanes] = dmm::series::#function(k, &#table);
         });
         // those of packs are taken by lanes
         let single = sums.enumerate().skip(self.tables.first_single[kind]);

@@ -6,7 +6,7 @@ use std::ops::Range;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::writer::Writer;
+use super::writer::{Writer, arrays};
 use crate::algebra::Id;
 use crate::emit::rust::paths;
 use crate::program::series::{LANES, PAIR, Place};
@@ -96,9 +96,9 @@ impl Writer<'_, '_> {
     /// The coefficients of an order in a table, of this number.
     pub(super) fn row_from(&self, table: usize, lane: usize, order: &TokenStream) -> TokenStream {
         let range = &self.tables.ranges()[table];
-        let [from, to, lanes] = [range.start, range.end, range.len()].map(paths::count);
-        let [lane, width] = [lane, LANES].map(paths::count);
-        quote!(dmm::series::pack::<_, _, #lanes, #width>(&series[#from..#to], #order, #lane))
+        let [lane, width, lanes] = [lane, LANES, range.len()].map(paths::count);
+        let table = arrays(range);
+        quote!(dmm::series::pack::<_, _, #lanes, #width>(&#table, #order, #lane))
     }
 
     /// The coefficients of order k of series, as one vector.
@@ -140,10 +140,10 @@ impl Writer<'_, '_> {
 
     /// Keeps a vector in the lanes from `lane` on of the table at `range`.
     fn keep(&mut self, range: &Range<usize>, lane: usize, row: &TokenStream) {
-        let [from, to, lane] = [range.start, range.end, lane].map(paths::count);
+        let (table, lane) = (arrays(range), paths::count(lane));
         self.block.push(quote! {
             let row = #row;
-            dmm::series::set_pack(&mut series[#from..#to], at, #lane, row);
+            dmm::series::set_pack(&mut #table, at, #lane, row);
         });
     }
 }

@@ -1,6 +1,7 @@
 //! The statements of one order, node by node, and the results.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
@@ -86,10 +87,9 @@ impl<'a, 'b> Writer<'a, 'b> {
     pub(super) fn earlier(&self, place: Place, order: &TokenStream) -> TokenStream {
         match self.tables.lane(place) {
             Some(lane) => {
-                let [from, to, number] =
-                    [lane.table.start, lane.table.end, lane.number].map(paths::count);
-                let lanes = paths::count(lane.table.len());
-                quote!(dmm::series::row::<_, _, #lanes>(&series[#from..#to], #order)[#number])
+                let table = arrays(&lane.table);
+                let [lanes, number] = [lane.table.len(), lane.number].map(paths::count);
+                quote!(dmm::series::row::<_, _, #lanes>(&#table, #order)[#number])
             }
             None => {
                 let array = self.array(place);
@@ -282,6 +282,12 @@ fn is_place(tokens: &TokenStream) -> bool {
         TokenTree::Punct(sign) => sign.as_char() == '.',
         TokenTree::Literal(_) | TokenTree::Group(_) => true,
     })
+}
+
+/// The arrays of a table.
+pub(super) fn arrays(table: &Range<usize>) -> TokenStream {
+    let [from, to] = [table.start, table.end].map(paths::count);
+    quote!(series[#from..#to])
 }
 
 /// In parentheses if it is no single factor.
