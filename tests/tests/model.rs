@@ -271,9 +271,12 @@ fn ensemble(problem: &Problem, run: &Run, members: usize, lanes: bool) -> Vec<Op
     };
     let parameters = problem.parameters();
     let mut starts = (0..members).map(|member| {
-        let larger = 1.0 + 0.1 * member as f64 / members as f64;
+        let more = 0.1 * member as f64 / members as f64;
+        // not all by the same factor, of which some solutions do not depend
+        let parameters = parameters.iter().enumerate();
+        let parameters = parameters.map(|(i, (_, value))| value * (1.0 + more / (1 + i) as f64));
         Start {
-            parameters: parameters.iter().map(|(_, value)| value * larger).collect(),
+            parameters: parameters.collect(),
             initial: run.initial.clone(),
         }
     });

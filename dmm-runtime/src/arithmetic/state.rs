@@ -36,6 +36,18 @@ impl<const N: usize, S: Scalar> State<N, S> {
         after
     }
 
+    /// The state after an increment that has the remainder in it, with one of at most half a unit in the last
+    /// place of x.
+    #[inline(always)]
+    #[must_use]
+    pub fn moved(&self, increment: &Vector<S, N>) -> Self {
+        let mut moved = *self;
+        for i in 0..N {
+            (moved.x[i], moved.remainder[i]) = two_sum(self.x[i], increment[i]);
+        }
+        moved
+    }
+
     /// The same state with a remainder of at most half a unit in the last place of x.
     #[inline(always)]
     #[must_use]

@@ -21,10 +21,10 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
             bracket: (self.register.from, tau),
             start: Some((c[0], c[1])),
         };
-        let start = (self.register.time, &self.register.state);
-        let increment = |elapsed| self.increment(elapsed);
+        let start = self.register.time;
+        let along = |elapsed| self.after(elapsed);
         let ((time, state), located) =
-            GuardPoint::near(self.dynamics, &found, start, tau, increment, used);
+            GuardPoint::near(self.dynamics, &found, start, tau, along, used);
         let increment = vector!(|i| state.x[i] - self.register.state.x[i]);
         let how = (self.settings.corrects, located);
         let level = self.register.level();

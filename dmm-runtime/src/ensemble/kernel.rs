@@ -6,8 +6,8 @@ use super::register::{Register, Wide, WideMask};
 use crate::arithmetic::lanes::Vectorised;
 use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
-use crate::arithmetic::{Scalar, State, Time, filled};
-use crate::contract::{Dynamics, DynamicsVisitor, Guards, Vector};
+use crate::arithmetic::{Scalar, State, Time};
+use crate::contract::{Dynamics, DynamicsVisitor, Guards};
 use crate::events::ends::{Decay, Ends};
 use crate::expansion::jet::{FirstSeries, GuardsUnrolled, expand, first_switching};
 use crate::expansion::polynomial::increment;
@@ -244,15 +244,16 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         (step, too_small.or(too_large))
     }
 
-    /// Σ xⱼ hʲ over j ≥ 1.
+    /// The states h after those at which the coefficients are those of the solution; see
+    /// [`crate::expansion::jet::Jet::after`].
     #[inline(always)]
-    pub(super) fn increment(&self, h: Wide) -> Vector<Wide, N> {
+    pub(super) fn after(&self, h: Wide) -> State<N, Wide> {
         // a loop, as closures are not inlined for certain
-        let mut sum: Vector<Wide, N> = filled(Wide::from_f64(0.0));
-        for (sum, series) in sum.iter_mut().zip(self.series.as_ref()) {
-            *sum = increment(series, h).settled();
+        let mut increments = self.register.state.remainder;
+        for (sum, series) in increments.iter_mut().zip(self.series.as_ref()) {
+            *sum = increment(series, h, *sum).settled();
         }
-        sum
+        self.register.state.moved(&increments)
     }
 
     /// A step of every lane, and whether one needs attention.
@@ -267,7 +268,7 @@ impl<F: Dynamics<Wide, N, M>, const N: usize, const M: usize> Run<'_, F, N, M> {
         let (tau, last, time, mut state, ahead) = loop {
             let end = n(self.settings.end);
             let (tau, time, last) = step_to(self.dynamics.is_autonomous(), start, size, end);
-            let state = self.register.state.after(&self.increment(tau));
+            let state = self.after(tau);
             let ahead = self.look_ahead(tau, (time, &state), entry.interface);
             let near = ahead.hard.and(used);
             if halvings == MOST_HALVINGS || !near.any() {

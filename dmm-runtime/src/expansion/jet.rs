@@ -7,7 +7,7 @@ use std::marker::PhantomData;
 use std::sync::atomic::{Ordering, compiler_fence};
 
 use super::polynomial::increment;
-use crate::arithmetic::Scalar;
+use crate::arithmetic::{Scalar, State};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::series::{Coefficients, Order, Rolled, Unroll};
 
@@ -306,18 +306,21 @@ impl<F: Dynamics<f64, N, M>, U: Unroll, const N: usize, const M: usize, const P:
         &self.solution.as_ref()[..N]
     }
 
-    /// Σ xⱼ (h/σ)ʲ over j ≥ 1.
+    /// The state h after `start`, whose coefficients these are: the increment is Σ xⱼ (h/σ)ʲ over j ≥ 1 and the
+    /// remainder, whose sum has a rounding error that the increment has anyway.
     #[inline(always)]
-    pub(crate) fn increment(&self, h: f64) -> Vector<f64, N> {
+    pub(crate) fn after(&self, start: &State<N>, h: f64) -> State<N> {
         let h = self.in_units(h);
-        let mut sum = Vector::<f64, N>::zeros();
         if h > LONGEST {
-            return self.long_increment(h);
+            return start.after(&self.long_increment(h)).normalised();
         }
-        for (sum, series) in sum.as_mut_slice().iter_mut().zip(self.coefficients()) {
-            *sum = increment(series, h);
+        let mut increments = start.remainder;
+        for (i, series) in self.coefficients().iter().enumerate() {
+            increments[i] = increment(series, h, increments[i]);
+            // LLVM would compute all components in one vector, and fill it one by one with what lies apart
+            compiler_fence(Ordering::Release);
         }
-        sum
+        start.moved(&increments)
     }
 
     /// The same where powers of h overflow.

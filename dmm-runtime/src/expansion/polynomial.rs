@@ -3,12 +3,12 @@
 use crate::arithmetic::Scalar;
 use crate::arithmetic::masked::Masked;
 
-/// Σ cⱼ hʲ over j ≥ 1.
+/// Σ cⱼ hʲ over j ≥ 1, added to `rest`.
 ///
 /// In blocks of four coefficients by powers of h⁴, from the lowest on: the newest coefficients
 /// enter last, with one product.
 #[inline(always)]
-pub(crate) fn increment<S: Scalar, const P: usize>(c: &[S; P], h: S) -> S {
+pub(crate) fn increment<S: Scalar, const P: usize>(c: &[S; P], h: S, rest: S) -> S {
     let h2 = h * h;
     let h4 = h2 * h2;
     let powers = [h, h2];
@@ -21,7 +21,7 @@ pub(crate) fn increment<S: Scalar, const P: usize>(c: &[S; P], h: S) -> S {
         sums[which] = block(c, 4 * number + 1, powers).fused(power, sums[which]);
         number += 1;
     }
-    (sums[0] + sums[1]) * h
+    (sums[0] + sums[1]).fused(h, rest)
 }
 
 /// Σ c₍f₊ⱼ₎ hʲ over j < 4, with f the `first`, by the powers h and h².
@@ -270,9 +270,9 @@ mod tests {
     fn blocks_of_four_are_the_polynomial() {
         let c: [f64; 13] = std::array::from_fn(|k| 1.0 / (k as f64 + 1.0));
         let (value, _) = value_and_slope(&c, 0.7);
-        assert!((c[0] + increment(&c, 0.7) - value).abs() < 1e-15);
+        assert!((increment(&c, 0.7, c[0]) - value).abs() < 1e-15);
         let c = [2.0, 3.0, 5.0];
-        assert_eq!(increment(&c, 2.0), 26.0);
+        assert_eq!(increment(&c, 2.0, 0.5), 26.5);
     }
 
     #[test]

@@ -120,15 +120,15 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         self.time.remainder = used.select(time.remainder, self.time.remainder);
     }
 
-    /// A point close to the one that is `found` in a step over `tau` from `start`, with the
-    /// increment of the state after any part of it; and the lanes that have come to it.
+    /// A point close to the one that is `found` in a step over `tau` from `start`, with the state `along` it;
+    /// and the lanes that have come to it.
     #[inline(always)]
     pub(crate) fn near<const M: usize, D: Dynamics<S, N, M>>(
         dynamics: &D,
         found: &Found<S>,
-        (time, state): (Time<S>, &State<N, S>),
+        start: Time<S>,
         tau: S,
-        increment: impl Fn(S) -> Vector<S, N>,
+        along: impl Fn(S) -> State<N, S>,
         used: S::Mask,
     ) -> ((Time<S>, State<N, S>), S::Mask) {
         let n = S::from_f64;
@@ -138,7 +138,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let (mut lower, mut upper) = found.bracket;
         let mut iterations = 0;
         loop {
-            let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
+            let (time, state) = (start.after(elapsed), along(elapsed));
             if !open.any() || iterations == MOST_HALVINGS {
                 return ((time, state), used.and(open.not()));
             }
@@ -165,14 +165,14 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
     pub(crate) fn nearest<const M: usize, D: Dynamics<S, N, M>>(
         dynamics: &D,
         found: &Found<S>,
-        (time, state): (Time<S>, &State<N, S>),
+        start: Time<S>,
         tau: S,
-        increment: impl Fn(S) -> Vector<S, N>,
+        along: impl Fn(S) -> State<N, S>,
     ) -> Option<(Time<S>, State<N, S>)> {
         let mut elapsed = found.elapsed;
         let mut is_close = false;
         for _ in 0..MOST_CORRECTIONS {
-            let (time, state) = (time.after(elapsed), state.after(&increment(elapsed)));
+            let (time, state) = (start.after(elapsed), along(elapsed));
             if is_close {
                 let (lower, upper) = found.bracket;
                 let slack = S::from_f64(SMALL) * tau;
@@ -228,7 +228,7 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         let weights = Weights::new(&x, increment);
         let whole = dot(&x, &x) + dot(increment, increment);
         let (small, smallest) = (n(SMALL * SMALL) * whole, n(SMALLEST * SMALLEST) * whole);
-        let mut point = Self::at(dynamics, guard, time, state.normalised());
+        let mut point = Self::at(dynamics, guard, time, *state);
         let mut before = n(f64::INFINITY);
         let mut moves = used;
         for _ in 0..MOST_CORRECTIONS {

@@ -73,7 +73,6 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         Turn { free, last, near }: Turn<'_, S>,
     ) -> S::Mask {
         if M == 0 || dynamics.quantities() == 0 || !corrects {
-            *state = state.normalised();
             return S::Mask::all_are(false);
         }
         let none = S::from_f64(0.0);
@@ -85,7 +84,6 @@ impl<const N: usize, const M: usize, S: Masked> Level<N, M, S> {
         };
         let fewer = *free - S::from_f64(1.0);
         if !is_due.any() {
-            *state = state.normalised();
             *free = fewer;
             return used;
         }

@@ -85,7 +85,7 @@ impl<const N: usize> Short<N> {
         let mut state = self.at;
         for i in 0..N {
             let first = self.field[i].scaled(d);
-            let rest = d * increment(&self.terms[i], d);
+            let rest = d * increment(&self.terms[i], d, 0.0);
             let x = Double {
                 high: state.x[i],
                 low: state.remainder[i],

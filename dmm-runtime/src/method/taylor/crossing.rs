@@ -19,9 +19,9 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         found: &Found,
         tau: f64,
     ) -> Result<Ended, Failure> {
-        let start = (self.cursor.time, &self.cursor.state);
-        let increment = |elapsed| jet.increment(elapsed);
-        if let Some((time, state)) = GuardPoint::nearest(dynamics, found, start, tau, increment) {
+        let start = self.cursor.time;
+        let along = |elapsed| jet.after(&self.cursor.state, elapsed);
+        if let Some((time, state)) = GuardPoint::nearest(dynamics, found, start, tau, along) {
             let increment = state.x - self.cursor.state.x;
             let how = (self.corrects(dynamics, found), true);
             let near = (time, &state);
@@ -86,10 +86,9 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         found: &Found,
         tau: f64,
     ) -> Option<OnGuard<N>> {
-        let start = (self.cursor.time, &self.cursor.state);
-        let increment = |elapsed| jet.increment(elapsed);
-        let ((time, state), located) =
-            GuardPoint::near(dynamics, found, start, tau, increment, true);
+        let start = self.cursor.time;
+        let along = |elapsed| jet.after(&self.cursor.state, elapsed);
+        let ((time, state), located) = GuardPoint::near(dynamics, found, start, tau, along, true);
         let increment = state.x - self.cursor.state.x;
         let settled = |corrects: bool| {
             let how = (corrects, true);
@@ -115,8 +114,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         if !dynamics.guards().is_condition(found.guard) {
             return None;
         }
-        let start = &self.cursor.state;
-        let state = start.after(&jet.increment(found.elapsed)).normalised();
+        let state = jet.after(&self.cursor.state, found.elapsed);
         let time = self.cursor.time.after(found.elapsed);
         let rate = f64::NAN;
         is_finite(&state.x).then_some(OnGuard { time, state, rate })

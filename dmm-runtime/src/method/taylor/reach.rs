@@ -55,18 +55,12 @@ impl<D: Dynamics<f64, N, M>, const N: usize, const M: usize> Reach<'_, D, N, M> 
             };
             let end = time.value + wanted;
             let next = Time::new(if end < to { end } else { to });
-            let increment = jet.increment(next.since(*time));
-            if next.value <= time.value || !is_finite(&increment) {
+            let after = jet.after(state, next.since(*time));
+            if next.value <= time.value || !is_finite(&after.x) {
                 return Err(StepFailure::NotFinite.over(wanted));
             }
-            let after = state.after(&increment);
-            *state = level.reached(
-                dynamics,
-                next,
-                after,
-                &increment,
-                (method.corrects_level(), true),
-            );
+            let (displacement, how) = (after.x - state.x, (method.corrects_level(), true));
+            *state = level.reached(dynamics, next, after, &displacement, how);
             (*time, before) = (next, wanted);
         }
         Ok(())

@@ -40,7 +40,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         {
             let time = Time::new(t);
             let elapsed = time.since(here.time).max(0.0).min(tau);
-            let state = here.state.after(&jet.increment(elapsed));
+            let state = jet.after(&here.state, elapsed);
             let state = level.reached(
                 dynamics,
                 time,

@@ -167,7 +167,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 if !(tau > 0.0 && time != here.time) {
                     return Next::Not(size);
                 }
-                let state = here.state.after(&jet.increment(tau));
+                let state = jet.after(&here.state, tau);
                 if !<D::Guards as Guards<f64, N>>::MAY_END {
                     break (tau, time, is_last, state);
                 }
@@ -208,6 +208,9 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 }
                 if goes_on.is_break() {
                     return Next::Stopped(shown);
+                }
+                if is_last {
+                    return Next::Finished;
                 }
             }
             jet.expand(dynamics, here.time.value, &here.state.x);
