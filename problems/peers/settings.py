@@ -6,6 +6,8 @@ import statistics
 
 # seconds and runs that a setting is tried for, and pairs of runs of a comparison
 TRIAL, LEAST_TRIALS, PAIRS = 0.02, 3, 25
+# the processor's clock may change from trial to trial: those within this of the least are compared in turn
+NEARLY, ROUNDS = 1.7, 9
 # tighter tolerances of one that takes longer are not tried: low orders take hours
 LONGEST = 0.5
 # a turn takes about this long, because the first runs after a pause are slower, and is as many runs at least
@@ -27,8 +29,12 @@ class Setting:
         self.net = self.seconds - (overhead.about(crossings) if overhead else 0.0)
 
     def turn(self):
+        """Seconds of a run."""
+        return turn(self.function, self.t_end, self.seconds)
+
+    def own_turn(self):
         """Seconds of a run, and what of them is the integrator's own."""
-        seconds = turn(self.function, self.t_end, self.seconds)
+        seconds = self.turn()
         return seconds, seconds - (self.overhead.now(self.crossings) if self.overhead else 0.0)
 
 
@@ -48,14 +54,29 @@ def chosen(settings, level):
         for setting, tighter in zip(own, own[1:] + own[-1:]):
             if max(setting.error, tighter.error) <= level:
                 reliable.append(setting)
-    fastest = min(reliable, key=lambda setting: setting.net, default=None)
-    return fastest or min(settings, key=lambda setting: setting.error)
+    if not reliable:
+        return min(settings, key=lambda setting: setting.error)
+    least = min(setting.net for setting in reliable)
+    return fastest([setting for setting in reliable if setting.net <= NEARLY * least])
+
+
+def fastest(settings):
+    """The one that takes the least in the same moment, as the median of some rounds in turn."""
+    if len(settings) == 1:
+        return settings[0]
+    shares = {setting: [] for setting in settings}
+    for _ in range(ROUNDS):
+        times = {setting: setting.turn() - (setting.seconds - setting.net) for setting in settings}
+        whole = sum(times.values())
+        for setting, time in times.items():
+            shares[setting].append(time / whole)
+    return min(settings, key=lambda setting: statistics.median(shares[setting]))
 
 
 def duel(ours, peer):
     """Times in turn: ours, the peer's, and of the latter what is its own. All are measured in the same
     moment, because the processor's clock changes."""
-    return [(ours.turn()[0], *peer.turn()) for _ in range(PAIRS)]
+    return [(ours.turn(), *peer.own_turn()) for _ in range(PAIRS)]
 
 
 def spread(values):
