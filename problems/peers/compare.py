@@ -73,12 +73,12 @@ def settings_of(program, problem, sample):
 
 
 def settings_of_heyoka(description, sample):
-    overhead = CostOfPython(description, 1e-9, min(sample["t"], SHORT))
-    a_run, a_crossing = 1e6 * overhead.a_run, 1e6 * overhead.a_crossing
+    cost = CostOfPython(description, 1e-9, min(sample["t"], SHORT))
+    a_run, a_crossing = 1e6 * cost.a_run, 1e6 * cost.a_crossing
     print(f"  heyoka: Python takes {a_run:.1f} µs a run, {a_crossing:.2f} µs a crossing")
     for tolerance in TOLERANCES:
         run = Heyoka(description, tolerance).run
-        yield Setting("heyoka", tolerance, run, sample, overhead)
+        yield Setting("heyoka", tolerance, run, sample, cost)
 
 
 class Report:

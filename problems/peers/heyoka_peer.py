@@ -116,13 +116,13 @@ class CostOfPython:
 
     def __init__(self, description, tolerance, t_end):
         smooth = Heyoka(description | {"interfaces": []}, tolerance)
-        self.start, self.t_end, self.kinds = smooth.run, t_end, {}
+        self.start, self.t_end, self.runs = smooth.run, t_end, []
         if description["interfaces"]:
             twice, often = (Heyoka(description, tolerance, bodies) for bodies in (2, 6))
             self.start = twice.run
             runs = [twice.run, often.run, smooth.run, smooth.run_with_entries]
             # with what one of each takes
-            self.kinds = {run: min(run(t_end, LEAST_REPEATS)[0]) for run in runs}
+            self.runs = [(run, min(run(t_end, LEAST_REPEATS)[0])) for run in runs]
             self.bodies, self.entries = often.crossings - twice.crossings, smooth.once(t_end)
         rounds = zip(*(self.each() for _ in range(ROUNDS)))
         self.a_run, self.a_crossing = map(statistics.median, rounds)
@@ -130,11 +130,9 @@ class CostOfPython:
     def each(self):
         """Seconds of a run to where it starts, and of a crossing, as they are now."""
         a_run = turn(self.start, 0.0, SHORTEST)
-        if not self.kinds:
+        if not self.runs:
             return a_run, 0.0
-        twice, often, plain, entered = (
-            turn(run, self.t_end, about) for run, about in self.kinds.items()
-        )
+        twice, often, plain, entered = (turn(run, self.t_end, about) for run, about in self.runs)
         return a_run, (often - twice) / self.bodies + (entered - plain) / self.entries
 
     def about(self, crossings):

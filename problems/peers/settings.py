@@ -18,15 +18,19 @@ TURN, LEAST_REPEATS, MOST_REPEATS = 0.005, 3, 999
 class Setting:
     """An integrator at a tolerance on a problem: what it takes and reaches."""
 
-    def __init__(self, who, tolerance, run, sample, overhead=None):
-        """`overhead`: what of a run is not the integrator's own, as `CostOfPython` has it."""
+    def __init__(self, who, tolerance, run, sample, cost=None):
+        """`cost` measures what of a run is not the integrator's own, as `CostOfPython` does."""
         self.who, self.tolerance, self.function, self.t_end = who, tolerance, run, sample["t"]
         first, x, crossings, self.steps = run(self.t_end, 1)
         self.error = math.dist(x, sample["x"]) if crossings == sample["crossings"] else math.inf
-        self.overhead, self.crossings = overhead, crossings
+        self.cost, self.crossings = cost, crossings
+        self.overhead = cost.about(crossings) if cost else 0.0
         trials = LEAST_TRIALS + min(50, int(TRIAL / first[0]))
         self.seconds = min(run(self.t_end, trials)[0])
-        self.net = self.seconds - (overhead.about(crossings) if overhead else 0.0)
+
+    @property
+    def net(self):
+        return self.seconds - self.overhead
 
     def turn(self):
         """Seconds of a run."""
@@ -35,7 +39,7 @@ class Setting:
     def own_turn(self):
         """Seconds of a run, and what of them is the integrator's own."""
         seconds = self.turn()
-        return seconds, seconds - (self.overhead.now(self.crossings) if self.overhead else 0.0)
+        return seconds, seconds - (self.cost.now(self.crossings) if self.cost else 0.0)
 
 
 def turn(run, t_end, about):
@@ -66,7 +70,7 @@ def fastest(settings):
         return settings[0]
     shares = {setting: [] for setting in settings}
     for _ in range(ROUNDS):
-        times = {setting: setting.turn() - (setting.seconds - setting.net) for setting in settings}
+        times = {setting: setting.turn() - setting.overhead for setting in settings}
         whole = sum(times.values())
         for setting, time in times.items():
             shares[setting].append(time / whole)
