@@ -14,7 +14,7 @@ import pathlib
 from heyoka_peer import CostOfPython, Heyoka, exact_state
 from picture import work_precision
 from program import Program
-from settings import LONGEST, Setting, chosen, duel, spread
+from settings import LONGEST, Setting, chosen, in_turn, spread
 
 PROBLEMS = [
     "elliptic",
@@ -136,7 +136,7 @@ def compare(problem, sample, description, library, peers, report):
         report.setting(problem, setting)
     for level in LEVELS:
         fastest, peer = chosen(ours, level), chosen(others, level)
-        report.level(problem, level, fastest, peer, duel(fastest, peer))
+        report.level(problem, level, fastest, peer, in_turn(fastest, peer))
         slower = dict.fromkeys(setting.who for setting in others if setting.who != peer.who)
         for who in slower:
             own = chosen([setting for setting in others if setting.who == who], level)

@@ -77,7 +77,7 @@ def fastest(settings):
     return min(settings, key=lambda setting: statistics.median(shares[setting]))
 
 
-def duel(ours, peer):
+def in_turn(ours, peer):
     """Times in turn: ours, the peer's, and of the latter what is its own. All are measured in the same
     moment, because the processor's clock changes."""
     return [(ours.turn(), *peer.own_turn()) for _ in range(PAIRS)]

@@ -12,7 +12,7 @@ import pathlib
 import statistics
 
 from program import Program
-from settings import LONGEST, Setting, chosen, duel, spread
+from settings import LONGEST, Setting, chosen, in_turn, spread
 
 LEVELS = [1e-3, 1e-5, 1e-7, 1e-9]
 TOLERANCES = [10 ** (-k / 2) for k in range(3, 30)]
@@ -80,7 +80,7 @@ class Table:
         """A level: our setting beside those of the peers."""
         own, cells = [], []
         for peer in peers:
-            rounds = duel(ours, peer)
+            rounds = in_turn(ours, peer)
             ratios = spread([b / a for a, b, _ in rounds])
             seconds = [statistics.median(times) for times in zip(*rounds)]
             own.append(seconds[0])
