@@ -52,6 +52,8 @@ pub(crate) struct Level<const N: usize, const M: usize, S: Masked = f64> {
     pub(crate) scale: Vector<S, M>,
 }
 
+/// Steps between adaptions of the level's correction to the size of the state.
+pub(crate) const RESCALING: u64 = 256;
 /// Where the slope is smaller than this, rounding errors of ψ would move the state by more
 /// than some units in its last place.
 const LITTLE: f64 = 1.0 / 16.0;

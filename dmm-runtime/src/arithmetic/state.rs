@@ -52,11 +52,7 @@ impl<const N: usize, S: Scalar> State<N, S> {
     #[inline(always)]
     #[must_use]
     pub fn normalised(&self) -> Self {
-        let mut normalised = *self;
-        for i in 0..N {
-            (normalised.x[i], normalised.remainder[i]) = two_sum(self.x[i], self.remainder[i]);
-        }
-        normalised
+        self.moved(&self.remainder)
     }
 
     /// The state rounded once.

@@ -14,8 +14,8 @@ use crate::expansion::polynomial::increment;
 use crate::expansion::radius::{
     FASTEST, LARGEST_DECISIVE, SMALLEST_DECISIVE, decisive, decisive_terms, radius,
 };
-use crate::level::{Level, Turn};
-use crate::method::taylor::{RESCALING, step_to};
+use crate::level::{Level, RESCALING, Turn};
+use crate::method::taylor::step_to;
 
 /// Halvings of a step of which the ends do not tell enough.
 const MOST_HALVINGS: u32 = 2;

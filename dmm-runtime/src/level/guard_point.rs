@@ -8,7 +8,7 @@
 //! last time g and ψ are evaluated in pairs of doubles, at the point with its remainder: both
 //! hold to some thirty digits, and transitions add nothing to the level.
 
-use super::reached::select;
+use super::reached::{displaced, select};
 use super::{Level, Weights, switching_in_pairs};
 use crate::arithmetic::linear::{dot, is_finite};
 use crate::arithmetic::masked::{Mask, Masked, vector};
@@ -110,12 +110,8 @@ impl<const N: usize, S: Masked> GuardPoint<N, S> {
         } else {
             used
         };
-        let mut state = self.state;
-        for i in 0..N {
-            state.remainder[i] += displacement[i];
-        }
         let time = self.time.after(delta);
-        self.state = select(used, &state.normalised(), &self.state);
+        self.state = select(used, &displaced(self.state, displacement), &self.state);
         self.time.value = used.select(time.value, self.time.value);
         self.time.remainder = used.select(time.remainder, self.time.remainder);
     }

@@ -233,7 +233,7 @@ impl<F: Dynamics<S, N, M>, const N: usize, const M: usize, S: Masked> NullaryFnO
 
 /// The state with a displacement.
 #[inline(always)]
-fn displaced<const N: usize, S: Masked>(
+pub(super) fn displaced<const N: usize, S: Masked>(
     mut state: State<N, S>,
     displacement: &Vector<S, N>,
 ) -> State<N, S> {

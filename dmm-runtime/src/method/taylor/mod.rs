@@ -6,7 +6,7 @@ mod reach;
 mod segment;
 mod steps;
 
-pub(crate) use steps::{RESCALING, step_to};
+pub(crate) use steps::step_to;
 
 use super::{Cursor, Ended, Failure, InLanes, Method, Sink, Variation, check_tolerance};
 use crate::arithmetic::{Scalar, State, Vector};

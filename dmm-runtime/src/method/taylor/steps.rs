@@ -11,12 +11,9 @@ use crate::arithmetic::{State, Time, filled};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::expansion::jet::Jet;
 use crate::expansion::radius::OtherUnit;
-use crate::level::{Found, Level, Turn};
+use crate::level::{Found, Level, RESCALING, Turn};
 use crate::method::{Ended, Failure, Sink, StepFailure};
 use crate::series::{Choice, MOST_COEFFICIENTS, Rolled, Unroll};
-
-/// Steps between adaptions of the level's correction to the size of the state.
-pub(crate) const RESCALING: u64 = 256;
 
 /// A segment with P coefficients, still to be chosen.
 pub(super) struct Choose<'a, D, S, const N: usize, const M: usize> {
