@@ -8,7 +8,7 @@ use crate::model::Model;
 /// A model that is proved to hold what it declares.
 #[derive(Debug)]
 pub struct Proved {
-    /// The model. Its DAG is the one all nodes below live in.
+    /// The model. All nodes below are those of its DAG.
     pub model: Model,
     /// By interface, in the order of [`Model::interfaces`].
     pub interfaces: Vec<ProvedInterface>,

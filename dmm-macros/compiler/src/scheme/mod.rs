@@ -31,7 +31,7 @@ pub use switching::SwitchingScheme;
 /// The derived integrator of a whole system.
 #[derive(Debug)]
 pub struct Scheme {
-    /// The declaration that it was derived from. Its DAG is the one all nodes below live in.
+    /// The declaration that it was derived from. All nodes below are those of its DAG.
     pub model: Model,
     /// ∂ₜg and ∇g of every interface.
     pub interfaces: Vec<SwitchingScheme>,

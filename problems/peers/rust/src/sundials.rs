@@ -56,7 +56,7 @@ fn checked(what: &str, code: c_int) -> Outcome<()> {
     }
 }
 
-/// A vector, the context that it lives in, and what f is given.
+/// A vector, the context that it belongs to, and what f is given.
 struct State {
     context: SUNContext,
     x: N_Vector,

@@ -9,7 +9,7 @@ use crate::algebra::display::{FormulaId, Formulas, Symbol};
 pub(super) struct Document {
     /// The declaration; empty in a part of a listing.
     pub(super) source: String,
-    /// Where the formulas of the sections live.
+    /// The DAG of the formulas of the sections.
     pub(super) formulas: Formulas,
     /// The letters that they are written with.
     pub(super) letters: Letters,
