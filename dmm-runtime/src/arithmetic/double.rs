@@ -10,6 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::Scalar;
+use super::alone;
 use super::error_free::{split_error, two_sum};
 use super::masked::Masked;
 
@@ -33,6 +34,18 @@ impl<S> Pair<S> {
         S: Copy,
     {
         Self { high, low }
+    }
+
+    /// The same, read number by number; see [`alone`].
+    #[inline(always)]
+    pub(crate) fn by_numbers(&self) -> Self
+    where
+        S: Copy,
+    {
+        Self {
+            high: alone(&self.high),
+            low: alone(&self.low),
+        }
     }
 }
 

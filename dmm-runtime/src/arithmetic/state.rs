@@ -1,7 +1,7 @@
 //! The state with its rounding remainder.
 
 use super::error_free::two_sum;
-use super::{Scalar, Vector};
+use super::{Scalar, Vector, alone};
 
 /// A state x carried as the unevaluated sum of its rounded value and the remainder, so that
 /// increments far below the last place of x add up (compensated summation).
@@ -53,6 +53,17 @@ impl<const N: usize, S: Scalar> State<N, S> {
     #[must_use]
     pub fn normalised(&self) -> Self {
         self.moved(&self.remainder)
+    }
+
+    /// The same, read number by number; see [`alone`].
+    #[inline(always)]
+    pub(crate) fn by_numbers(&self) -> Self {
+        let mut copy = *self;
+        for i in 0..N {
+            copy.x[i] = alone(&self.x[i]);
+            copy.remainder[i] = alone(&self.remainder[i]);
+        }
+        copy
     }
 
     /// The state rounded once.

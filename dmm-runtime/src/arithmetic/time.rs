@@ -3,8 +3,8 @@
 //! A plain double loses two digits of phase by t = 10⁴; the unevaluated sum of two doubles
 //! keeps the time of a transition to the last bit of its increment, however long the run.
 
-use super::Scalar;
 use super::error_free::two_sum;
+use super::{Scalar, alone};
 
 /// A point in time: the unevaluated sum of two doubles.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -31,6 +31,15 @@ impl<S: Scalar> Time<S> {
         let (sum, error) = two_sum(self.value, delta);
         let (value, remainder) = two_sum(sum, error + self.remainder);
         Self { value, remainder }
+    }
+
+    /// The same, read number by number; see [`alone`].
+    #[inline(always)]
+    pub(crate) fn by_numbers(&self) -> Self {
+        Self {
+            value: alone(&self.value),
+            remainder: alone(&self.remainder),
+        }
     }
 
     /// This time minus `earlier`, rounded once.

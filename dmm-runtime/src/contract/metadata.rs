@@ -145,6 +145,12 @@ impl Metadata {
         self.ends.get(guard.checked_sub(self.interfaces.len())?)
     }
 
+    /// The index of the interface that is met with a guard: the guard itself, or what slides end on.
+    #[inline]
+    pub(crate) fn interface(&self, guard: usize) -> usize {
+        self.end(guard).map_or(guard, |end| end.interface)
+    }
+
     /// The index of the guard of the first condition.
     #[inline]
     pub fn first_condition(&self) -> usize {

@@ -10,78 +10,89 @@ use crate::arithmetic::{State, Time};
 use crate::contract::{Side, System, Vector};
 use crate::error::{Error, ErrorKind};
 use crate::method::Active;
-use crate::output::{Transition, TransitionKind};
+use crate::output::TransitionKind;
 
 /// What is behind a point of an interface.
 pub(crate) struct Next<R, const N: usize> {
-    /// The transition into the next mode; nothing where an interface was crossed that has to do
-    /// with events alone and none happened.
-    pub(crate) transition: Option<Transition<R, N>>,
     /// The mode.
     pub(crate) mode: R,
+    /// dg/dt in it.
+    pub(crate) rate: f64,
     /// The state, if it has changed.
     pub(crate) state: Option<State<N>>,
     /// The interfaces that bound the mode there.
     pub(crate) active: Active,
+    /// The kind of the transition; nothing where an interface was crossed that has to do with events
+    /// alone and none happened.
+    pub(crate) kind: Option<TransitionKind>,
 }
 
 /// What is behind a point of a guard, from a mode that is left at a rate: the mode whose field leads
 /// into it.
+#[inline(always)]
 pub(crate) fn enter<Sys: System<N>, const N: usize>(
+    system: &Sys,
+    from: (Sys::Region, f64),
+    guard: usize,
+    time: Time,
+    state: &State<N>,
+) -> Result<Next<Sys::Region, N>, Error> {
+    let metadata = system.metadata();
+    let ([_], [], []) = (metadata.interfaces, metadata.free, metadata.sliding) else {
+        // what is returned in memory is kept apart from what is in registers
+        let next = enter_among(system, from, guard, time, state)?;
+        return Ok(next);
+    };
+    let (t, x) = (time.value, &state.x);
+    let (mode, rate) = across(system, from, guard, t, x)?;
+    check_conditions(system, mode, t, x)?;
+    Ok(Next {
+        mode,
+        rate,
+        state: None,
+        active: Active::new(Some(guard)),
+        kind: Some(TransitionKind::Crossed),
+    })
+}
+
+/// The same where there are several interfaces, events or sliding motions.
+#[inline(never)]
+fn enter_among<Sys: System<N>, const N: usize>(
     system: &Sys,
     (from, rate_from): (Sys::Region, f64),
     guard: usize,
     time: Time,
     state: &State<N>,
 ) -> Result<Next<Sys::Region, N>, Error> {
-    let (t, x) = (time.value, &state.x);
+    let t = time.value;
     let metadata = system.metadata();
     let end = metadata.end(guard);
-    let interface = end.map_or(guard, |end| end.interface);
-    let parts = (metadata.interfaces, metadata.free, metadata.sliding);
-    let ((to, rate_to), active, happened) = if let ([_], [], []) = parts {
-        let to = across(system, (from, rate_from), interface, t, x)?;
-        (to, Active::new(Some(interface)), None)
-    } else {
-        let left = end.and_then(|end| Some((interface, end.side?)));
-        let met = Met {
-            interface,
-            rate: rate_from,
-            left,
-        };
-        let (to, active, happened) = around(system, from, &met, t, state)?;
-        let after = happened.as_ref().map_or(x, |happened| &happened.state.x);
-        let rate = Reading::new(system, to, interface, t, after).rate;
-        ((to, rate), active, happened)
+    let interface = metadata.interface(guard);
+    let met = Met {
+        interface,
+        rate: rate_from,
+        left: end.and_then(|end| Some((interface, end.side?))),
     };
-    let after = happened.as_ref().map_or(*x, |happened| happened.state.x);
-    check_conditions(system, to, t, &after)?;
+    let (mode, active, happened) = around(system, from, &met, t, state)?;
+    let after = happened
+        .as_ref()
+        .map_or(&state.x, |happened| &happened.state.x);
+    let rate = Reading::new(system, mode, interface, t, after).rate;
+    check_conditions(system, mode, t, after)?;
     let is_silent = happened.is_none()
-        && Sys::index(from) == Sys::index(to)
+        && Sys::index(from) == Sys::index(mode)
         && metadata.free.contains(&interface)
         && !metadata.switches.contains(&interface);
-    let transition = Transition {
-        t,
-        time,
-        x: state.x,
-        remainder: state.remainder,
-        after,
-        kind: match happened {
-            Some(_) => TransitionKind::Jumped,
-            None => kind(system, from, to),
-        },
-        interface,
-        guard,
-        from,
-        to,
-        rate_from,
-        rate_to,
+    let kind = match happened {
+        Some(_) => TransitionKind::Jumped,
+        None => kind(system, from, mode),
     };
     Ok(Next {
-        transition: (!is_silent).then_some(transition),
-        mode: to,
+        mode,
+        rate,
         state: happened.map(|happened| happened.state),
         active,
+        kind: (!is_silent).then_some(kind),
     })
 }
 

@@ -8,6 +8,8 @@
 //! that x̂* belongs to the mode entered whatever rounding did, and the located point never fires
 //! again. Names are added to errors here; methods know none.
 
+use std::ops::ControlFlow;
+
 use super::accumulation::Accumulation;
 use super::conditions::condition_error;
 use super::modes::Modes;
@@ -92,8 +94,8 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
             if observer.point(&self.point()).is_break() {
                 return Ok(EndedBy::Observer);
             }
-            let transition = self.next_mode(system, guard, rate)?;
-            if transition.is_some_and(|transition| observer.transition(&transition).is_break())
+            let told = |transition: &_| observer.transition(transition);
+            if self.next_mode(system, (guard, rate), told)?.is_break()
                 || observer.point(&self.point()).is_break()
             {
                 return Ok(EndedBy::Observer);
@@ -157,13 +159,14 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
                 time.after(later),
                 state.after(&(field * later)).normalised(),
             );
-            let next = enter(system, (self.region, rate), guard, there.0, &there.1);
-            let transition = next.ok().and_then(|next| next.transition);
-            let left = transition.filter(|one| one.kind == TransitionKind::LeftSlide);
-            let Some(left) = left.filter(|_| there.0.value <= until) else {
+            let Ok(next) = enter(system, (self.region, rate), guard, there.0, &there.1) else {
                 return;
             };
-            if left.rate_to * side.sign() > 0.0 {
+            let leaves = next.kind == Some(TransitionKind::LeftSlide);
+            if !leaves || there.0.value > until {
+                return;
+            }
+            if next.rate * side.sign() > 0.0 {
                 (self.cursor.time, self.cursor.state) = there;
                 return;
             }
@@ -172,14 +175,15 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
         }
     }
 
-    /// What is behind a guard that was met: into the next mode. Nothing is told of an interface
-    /// that has to do with events alone, where none happens.
+    /// What is behind a guard that was met at a rate: into the next mode, with what `told` makes of the
+    /// transition. Nothing is told of an interface that has to do with events alone, where none happens.
+    #[inline(always)]
     pub(crate) fn next_mode(
         &mut self,
         system: &Sys,
-        guard: usize,
-        rate: f64,
-    ) -> Result<Option<Transition<Sys::Region, N>>, Error> {
+        (guard, rate): (usize, f64),
+        told: impl FnOnce(&Transition<Sys::Region, N>) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, Error> {
         let Cursor { time, state, .. } = &self.cursor;
         if let Some(condition) = system.metadata().condition(guard) {
             let region = system.of_region(self.region).name;
@@ -187,8 +191,23 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
         }
         (self.accumulation).count(system, (guard, self.region), *time, &state.x)?;
         let next = enter(system, (self.region, rate), guard, *time, state)?;
-        if let Some(transition) = &next.transition {
-            transition.kind.count(&mut self.statistics);
+        let mut flow = ControlFlow::Continue(());
+        if let Some(kind) = next.kind {
+            kind.count(&mut self.statistics);
+            flow = told(&Transition {
+                t: time.value,
+                time: *time,
+                x: state.x,
+                remainder: state.remainder,
+                after: next.state.map_or(state.x, |after| after.x),
+                kind,
+                interface: system.metadata().interface(guard),
+                guard,
+                from: self.region,
+                to: next.mode,
+                rate_from: rate,
+                rate_to: next.rate,
+            });
         }
         self.region = next.mode;
         if let Some(state) = next.state {
@@ -196,7 +215,7 @@ impl<Sys: System<N>, const N: usize> Run<Sys, N> {
         }
         let mode = self.modes.number(system, next.mode);
         self.cursor.enter(mode, next.active);
-        Ok(next.transition)
+        Ok(flow)
     }
 
     /// What stopped a method, with names.

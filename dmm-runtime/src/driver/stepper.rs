@@ -113,8 +113,13 @@ impl<Sys: System<N>, Met: Method, const N: usize> Stepper<Sys, Met, N> {
     /// Whatever stops the integration; the stepper is still at the point before.
     pub fn step(&mut self) -> Result<Option<Stepped<Sys::Region, N>>, Error> {
         let (system, moving) = (&self.system, (&self.method, &mut self.memory));
-        if let Some((guard, rate)) = self.met {
-            let transition = self.run.next_mode(system, guard, rate)?;
+        if let Some(met) = self.met {
+            let mut transition = None;
+            let told = |one: &_| {
+                transition = Some(*one);
+                ControlFlow::Continue(())
+            };
+            self.run.next_mode(system, met, told).map(drop)?;
             self.met = None;
             if let Some(transition) = transition {
                 return Ok(Some(Stepped::Transition(transition)));

@@ -1,5 +1,7 @@
 //! A trajectory of an ensemble, in a lane or by itself.
 
+use std::ops::ControlFlow;
+
 use super::Member;
 use super::register::Register;
 use crate::arithmetic::{State, Time};
@@ -138,8 +140,8 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
             let entered = enter(&self.system, left, interface, self.time, &self.state);
             let next = entered?;
             (self.region, self.active) = (next.mode, next.active);
-            if let Some(transition) = next.transition {
-                transition.kind.count(&mut self.statistics);
+            if let Some(kind) = next.kind {
+                kind.count(&mut self.statistics);
             }
             self.crossing = None;
         }
@@ -162,7 +164,8 @@ impl<Sys: System<N>, const N: usize> Trajectory<Sys, N> {
         let ended = run.segment(&self.system, moving, until, &mut ());
         let ended = ended.and_then(|ended| {
             if let Ended::AtGuard { guard, rate } = ended {
-                run.next_mode(&self.system, guard, rate)?;
+                let told = |_: &_| ControlFlow::Continue(());
+                run.next_mode(&self.system, (guard, rate), told).map(drop)?;
                 self.active = run.cursor.active.clone();
             }
             Ok(ended)

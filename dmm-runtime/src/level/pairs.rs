@@ -25,7 +25,8 @@ pub(super) fn in_pairs<S: Masked, const N: usize, const M: usize, F: Dynamics<S,
     }
     // what is not inlined does not compute in lanes
     if S::LANES == 1 {
-        return conserved_apart(dynamics, time, state);
+        let psi = conserved_apart(dynamics, time, state);
+        return vector!(|m| psi[m].by_numbers());
     }
     let (t, x) = pairs(time, state);
     dynamics.over::<Pair<S>>().conserved(t, &x)

@@ -13,16 +13,15 @@ use crate::level::Found;
 use crate::method::Sink;
 use crate::series::Unroll;
 
-/// What a step meets.
-pub(super) enum Ahead {
-    /// No interface, or the step cannot be made at all.
-    Free,
-    /// An interface.
-    Crossing(Found),
+/// What a step meets: nothing, if it meets no interface or cannot be made at all.
+pub(super) type Ahead = Result<Option<Found>, Undecided>;
+
+/// Why it is not decided what a step meets.
+pub(super) enum Undecided {
     /// It comes so close to an interface that a shorter step has to decide.
-    Undecided(Part),
+    Shorter(Part),
     /// Whether this interface is met cannot be decided.
-    Unknown(usize),
+    Never(usize),
 }
 
 /// A part of the step that the tolerance allows.
@@ -55,7 +54,7 @@ impl Part {
 impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     /// Whether a step starts on a guard, whose root there does not count.
     #[inline(always)]
-    fn is_active(&self, here: &Here<N>, guard: usize) -> bool {
+    fn is_active(&self, here: Here<N>, guard: usize) -> bool {
         here.steps == 0 && self.cursor.active.contains(guard)
     }
 
@@ -65,15 +64,16 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &mut self,
         dynamics: &D,
         jet: &mut Jet<D, U, N, M, P>,
-        here: &Here<N>,
+        here: Here<N>,
         (tau, time, state): (f64, Time, &State<N>),
         part: Part,
     ) -> Ahead {
         if <D::Guards as Guards<f64, N>>::MAY_LEAVE_STATE && !dynamics.guards().follows_state() {
             if !is_finite(&state.x) {
-                return Ahead::Free;
+                return Ok(None);
             }
-            return self.first_enclosed::<P, M, D, U>(dynamics, jet, here, tau, part);
+            let first = self.first_enclosed::<P, M, D, U>(dynamics, jet, here, tau, part)?;
+            return Ok(first);
         }
         let field = dynamics.vector_field(time.value, &state.x);
         let ends = Ends {
@@ -105,20 +105,24 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 Course::Unknown => near = true,
             }
         }
-        match (near, once) {
-            (true, _) => match part.half() {
-                Some(half) => Ahead::Undecided(half),
-                // the step cannot be made
-                None if !is_finite(&state.x) => Ahead::Free,
-                None if dynamics.guards().is_affine() => {
-                    self.first::<P, M, D, U>(dynamics, jet, here, tau, part)
-                }
-                // between roots that are close g is smaller than the rounding errors of its series
-                None => self.first_enclosed::<P, M, D, U>(dynamics, jet, here, tau, part),
-            },
-            (false, Some(found)) => Ahead::Crossing(found),
-            (false, None) => Ahead::Free,
+        if !near {
+            return Ok(once);
         }
+        if let Some(half) = part.half() {
+            return Err(Undecided::Shorter(half));
+        }
+        if !is_finite(&state.x) {
+            // the step cannot be made
+            return Ok(None);
+        }
+        // between roots that are close g is smaller than the rounding errors of its series; what is returned
+        // in memory is kept apart from what is returned in registers
+        let first = if dynamics.guards().is_affine() {
+            self.first::<P, M, D, U>(dynamics, jet, here, tau, part)?
+        } else {
+            self.first_enclosed::<P, M, D, U>(dynamics, jet, here, tau, part)?
+        };
+        Ok(first)
     }
 
     /// The first crossing of a step by all coefficients of every g, which is affine. What comes as
@@ -129,7 +133,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &mut self,
         dynamics: &D,
         jet: &mut Jet<D, U, N, M, P>,
-        here: &Here<N>,
+        here: Here<N>,
         tau: f64,
         part: Part,
     ) -> Ahead {
@@ -150,13 +154,13 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let size = dynamics.guards().switching_size(guard, t, x);
             let is_active = self.is_active(here, guard);
             let Some(series) = Series::new(coefficients, size, is_active, tau) else {
-                return Ahead::Unknown(guard);
+                return Err(Undecided::Never(guard));
             };
             if series.dips(horizon, band) {
-                return Ahead::Undecided(Part {
+                return Err(Undecided::Shorter(Part {
                     share: self.method.finest(),
                     is_finest: true,
-                });
+                }));
             }
             let (found, touches) = series.first_root(horizon);
             self.sink.statistics().grazes += u64::from(touches);
@@ -171,7 +175,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 });
             }
         }
-        first.map_or(Ahead::Free, Ahead::Crossing)
+        Ok(first)
     }
 
     /// The first crossing of a step by enclosures of every g along the solution's polynomial: where
@@ -183,7 +187,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &mut self,
         dynamics: &D,
         jet: &Jet<D, U, N, M, P>,
-        here: &Here<N>,
+        here: Here<N>,
         tau: f64,
         part: Part,
     ) -> Ahead {
@@ -225,16 +229,16 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                         start: None,
                     });
                 }
-                Met::Undecided(_) if part.is_finest => return Ahead::Unknown(guard),
+                Met::Undecided(_) if part.is_finest => return Err(Undecided::Never(guard)),
                 Met::Undecided(_) => {
-                    return Ahead::Undecided(Part {
+                    return Err(Undecided::Shorter(Part {
                         share: self.method.finest(),
                         is_finest: true,
-                    });
+                    }));
                 }
             }
             self.sink.statistics().grazes += u64::from(touches);
         }
-        first.map_or(Ahead::Free, Ahead::Crossing)
+        Ok(first)
     }
 }

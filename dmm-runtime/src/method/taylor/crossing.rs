@@ -16,26 +16,33 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         dynamics: &D,
         level: &Level<N, M>,
         jet: &Jet<D, U, N, M, P>,
+        here: Here<N>,
         found: &Found,
         tau: f64,
     ) -> Result<Ended, Failure> {
-        let start = self.cursor.time;
-        let along = |elapsed| jet.after(&self.cursor.state, elapsed);
-        if let Some((time, state)) = GuardPoint::nearest(dynamics, found, start, tau, along) {
-            let increment = state.x - self.cursor.state.x;
+        let along = |elapsed| jet.after(&here.state, elapsed);
+        if let Some((time, state)) = GuardPoint::nearest(dynamics, found, here.time, tau, along) {
+            let increment = state.x - here.state.x;
             let how = (self.corrects(dynamics, found), true);
             let near = (time, &state);
             let (there, is_there) =
                 GuardPoint::settled(near, dynamics, level, found.guard, &increment, how);
             if is_there {
-                return Ok(self.end_on::<P, M, D, U>(dynamics, level, jet, (found, tau), there));
+                return Ok(self.end_on::<P, M, D, U>(
+                    dynamics,
+                    level,
+                    jet,
+                    here,
+                    (found, tau),
+                    there,
+                ));
             }
         }
         let there = self
-            .locate::<P, M, D, U>(dynamics, level, jet, found, tau)
-            .or_else(|| self.about_condition::<P, M, D, U>(dynamics, jet, found))
+            .locate::<P, M, D, U>(dynamics, level, jet, here, found, tau)
+            .or_else(|| self.about_condition::<P, M, D, U>(dynamics, jet, here, found))
             .ok_or(Failure::not_located(found.guard, tau))?;
-        Ok(self.end_on::<P, M, D, U>(dynamics, level, jet, (found, tau), there))
+        Ok(self.end_on::<P, M, D, U>(dynamics, level, jet, here, (found, tau), there))
     }
 
     /// Whether the level is corrected on the guard: beyond a condition ψ may have another value.
@@ -55,15 +62,15 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         dynamics: &D,
         level: &Level<N, M>,
         jet: &Jet<D, U, N, M, P>,
+        here: Here<N>,
         (found, tau): (&Found, f64),
         OnGuard { time, state, rate }: OnGuard<N>,
     ) -> Ended {
         if self.sink.next_output().is_some() {
-            let elapsed = time.since(self.cursor.time).clamp(0.0, tau);
-            let here = Here::of(self);
+            let elapsed = time.since(here.time).clamp(0.0, tau);
             self.outputs_along::<P, M, D, U>(dynamics, *level, jet, here, (elapsed, time));
         }
-        self.cursor.state = state;
+        self.cursor.state = state.by_numbers();
         self.cursor.time = time;
         self.sink.statistics().steps += 1;
         self.memory.step = tau;
@@ -83,13 +90,14 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         dynamics: &D,
         level: &Level<N, M>,
         jet: &Jet<D, U, N, M, P>,
+        here: Here<N>,
         found: &Found,
         tau: f64,
     ) -> Option<OnGuard<N>> {
-        let start = self.cursor.time;
-        let along = |elapsed| jet.after(&self.cursor.state, elapsed);
-        let ((time, state), located) = GuardPoint::near(dynamics, found, start, tau, along, true);
-        let increment = state.x - self.cursor.state.x;
+        let along = |elapsed| jet.after(&here.state, elapsed);
+        let ((time, state), located) =
+            GuardPoint::near(dynamics, found, here.time, tau, along, true);
+        let increment = state.x - here.state.x;
         let settled = |corrects: bool| {
             let how = (corrects, true);
             let near = (time, &state);
@@ -109,13 +117,14 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &self,
         dynamics: &D,
         jet: &Jet<D, U, N, M, P>,
+        here: Here<N>,
         found: &Found,
     ) -> Option<OnGuard<N>> {
         if !dynamics.guards().is_condition(found.guard) {
             return None;
         }
-        let state = jet.after(&self.cursor.state, found.elapsed);
-        let time = self.cursor.time.after(found.elapsed);
+        let state = jet.after(&here.state, found.elapsed);
+        let time = here.time.after(found.elapsed);
         let rate = f64::NAN;
         is_finite(&state.x).then_some(OnGuard { time, state, rate })
     }

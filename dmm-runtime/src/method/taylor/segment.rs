@@ -73,8 +73,11 @@ impl<const N: usize> Here<N> {
         let goes_on = segment.cursor.level.is_some();
         let stopped = segment.memory.stopped.take().filter(|_| goes_on);
         Self {
-            time: segment.cursor.time,
-            state: stopped.unwrap_or(segment.cursor.state),
+            time: segment.cursor.time.by_numbers(),
+            state: match stopped {
+                Some(state) => state,
+                None => segment.cursor.state.by_numbers(),
+            },
             before: segment.memory.step,
             steps: 0,
             free: if goes_on { segment.memory.free } else { 0.0 },

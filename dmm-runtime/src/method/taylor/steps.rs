@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use super::ahead::{Ahead, Part};
+use super::ahead::{Part, Undecided};
 use super::segment::{Here, Segment};
 use crate::arithmetic::linear::is_finite;
 use crate::arithmetic::masked::{Mask, Masked};
@@ -47,7 +47,6 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &mut self,
         dynamics: &D,
     ) -> Result<Ended, Failure> {
-        let start = self.cursor.state;
         let mut here = Here::of(self);
         let mut jet = Jet::<D, U, N, M, P>::new(dynamics, self.method.order(), self.memory.unit);
         jet.expand(dynamics, here.time.value, &here.state.x);
@@ -55,58 +54,60 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let kept = self.cursor.level.as_deref();
         let mut level = Level::enter(dynamics, here.time, &here.state, kept);
         let end = self.steps::<P, M, D, U>(dynamics, &mut level, &mut jet, &mut here);
-        self.cursor.time = here.time;
-        self.cursor.state = here.state;
         self.memory.step = here.before;
         self.memory.free = here.free;
         self.memory.unit = jet.unit();
         self.sink.statistics().steps += here.steps;
         let ended = match end {
-            Next::Finished => Ok(Ended::Finished),
+            Next::Crossing { found, tau } => {
+                self.go_to_guard::<P, M, D, U>(dynamics, &level, &jet, here, &found, tau)
+            }
+            Next::Finished => {
+                self.cursor.time = here.time;
+                self.cursor.state = here.state;
+                return Ok(Ended::Finished);
+            }
             Next::Stopped(shown) => {
+                self.cursor.time = here.time;
+                self.cursor.state = shown;
                 self.cursor.level = Some(level.kept());
                 self.cursor.active.clear();
-                self.cursor.state = shown;
                 self.memory.stopped = Some(here.state);
                 return Ok(Ended::Stopped);
             }
-            Next::Crossing { found, tau } => {
-                self.go_to_guard::<P, M, D, U>(dynamics, &level, &jet, &found, tau)
-            }
-            Next::Not(tau) => Err(StepFailure::NotFinite.over(tau)),
-            Next::Unknown { guard, tau } => Err(Failure::undecided(guard, tau)),
             Next::Lost(OtherUnit(unit)) => {
                 if here.steps > 0 {
                     self.cursor.active.clear();
                 }
                 self.cursor.level = Some(level.kept());
-                self.cursor.state = self.last_shown(dynamics, &level, &here, start);
+                self.stop_at(dynamics, &level, here);
                 self.memory.stopped = Some(here.state);
                 self.memory.unit = unit;
                 return self.expand_in_units(dynamics);
             }
+            Next::Not(tau) => Err(StepFailure::NotFinite.over(tau)),
+            Next::Unknown { guard, tau } => Err(Failure::undecided(guard, tau)),
         };
         if ended.is_err() {
-            self.cursor.state = self.last_shown(dynamics, &level, &here, start);
+            self.stop_at(dynamics, &level, here);
         }
         ended
     }
 
-    /// The last point of steps from `start` as an observer is shown it: on the level.
+    /// Leaves the cursor at the last point of the steps as an observer is shown it: on the level.
     #[cold]
     #[inline(never)]
-    fn last_shown<const M: usize, D: Dynamics<f64, N, M>>(
-        &self,
+    fn stop_at<const M: usize, D: Dynamics<f64, N, M>>(
+        &mut self,
         dynamics: &D,
         level: &Level<N, M>,
-        here: &Here<N>,
-        start: State<N>,
-    ) -> State<N> {
-        if here.steps == 0 {
-            return start;
+        here: Here<N>,
+    ) {
+        if here.steps > 0 {
+            let how = (self.method.corrects_level(), true);
+            self.cursor.time = here.time;
+            self.cursor.state = level.reached(dynamics, here.time, here.state, &filled(0.0), how);
         }
-        let how = (self.method.corrects_level(), true);
-        level.reached(dynamics, here.time, here.state, &filled(0.0), how)
     }
 
     /// Shows a point, on the level, if something `left` it off the level after a step over that; and
@@ -169,11 +170,11 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                     break (tau, time, is_last, state);
                 }
                 let end = (tau, time, &state);
-                match self.look_ahead::<P, M, D, U>(dynamics, jet, here, end, part) {
-                    Ahead::Free => break (tau, time, is_last, state),
-                    Ahead::Crossing(found) => return Next::Crossing { found, tau },
-                    Ahead::Undecided(shorter) => part = shorter,
-                    Ahead::Unknown(guard) => return Next::Unknown { guard, tau },
+                match self.look_ahead::<P, M, D, U>(dynamics, jet, *here, end, part) {
+                    Ok(None) => break (tau, time, is_last, state),
+                    Ok(Some(found)) => return Next::Crossing { found, tau },
+                    Err(Undecided::Shorter(shorter)) => part = shorter,
+                    Err(Undecided::Never(guard)) => return Next::Unknown { guard, tau },
                 }
             };
             if self.sink.next_output().is_some() {
@@ -195,7 +196,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             here.before = wanted;
             here.steps += 1;
             if here.steps.is_multiple_of(RESCALING) {
-                level.rescale(dynamics, here.time.value, &here.state);
+                level.rescale(dynamics, here.time.value, &state);
             }
             if is_last || self.sink.listens() {
                 let left = left.then_some(displacement);
