@@ -7,7 +7,7 @@ use std::marker::PhantomData;
 use std::sync::atomic::{Ordering, compiler_fence};
 
 use super::polynomial::increment;
-use crate::arithmetic::{Scalar, State};
+use crate::arithmetic::{Scalar, State, alone};
 use crate::contract::{Dynamics, Guards, Vector};
 use crate::series::{Coefficients, Order, Rolled, Unroll};
 
@@ -72,8 +72,8 @@ pub(crate) fn expand<S: Scalar, F, U: Unroll, const N: usize, const M: usize, co
 ) where
     F: Dynamics<S, N, M>,
 {
-    for (component, &x) in series.as_mut().iter_mut().zip(x.as_slice()) {
-        component[0] = x;
+    for (component, x) in series.as_mut().iter_mut().zip(x.as_slice()) {
+        component[0] = alone(x);
     }
     let mut solution = Solution {
         dynamics,

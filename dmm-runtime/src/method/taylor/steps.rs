@@ -28,15 +28,11 @@ where
 {
     type Output = Result<Ended, Failure>;
 
-    fn with<const P: usize, U: Unroll>(self) -> Self::Output {
-        let Self {
-            mut segment,
-            dynamics,
-        } = self;
-        if segment.memory.unit == 1.0 {
-            segment.expand::<P, M, D, U>(dynamics)
+    fn with<const P: usize, U: Unroll>(mut self) -> Self::Output {
+        if self.segment.memory.unit == 1.0 {
+            self.segment.expand::<P, M, D, U>(self.dynamics)
         } else {
-            segment.expand_in_units(dynamics)
+            self.segment.expand_in_units(self.dynamics)
         }
     }
 }
@@ -159,19 +155,20 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 Err(other) => return Next::Lost(other),
             };
             let mut part = Part::WHOLE;
-            let (tau, time, is_last, mut state) = loop {
+            let mut state;
+            let (tau, time, is_last) = loop {
                 let size = part.share * wanted;
                 let (tau, time, is_last) = step_to(dynamics.is_autonomous(), here.time, size, end);
                 if !(tau > 0.0 && time != here.time) {
                     return Next::Not(size);
                 }
-                let state = jet.after(&here.state, tau);
+                state = jet.after(&here.state, tau);
                 if !<D::Guards as Guards<f64, N>>::MAY_END {
-                    break (tau, time, is_last, state);
+                    break (tau, time, is_last);
                 }
                 let end = (tau, time, &state);
                 match self.look_ahead::<P, M, D, U>(dynamics, jet, *here, end, part) {
-                    Ok(None) => break (tau, time, is_last, state),
+                    Ok(None) => break (tau, time, is_last),
                     Ok(Some(found)) => return Next::Crossing { found, tau },
                     Err(Undecided::Shorter(shorter)) => part = shorter,
                     Err(Undecided::Never(guard)) => return Next::Unknown { guard, tau },
@@ -191,7 +188,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             if !is_finite(&state.x) {
                 return Next::Not(tau);
             }
-            here.state = state;
+            here.state = state.by_numbers();
             here.time = time;
             here.before = wanted;
             here.steps += 1;
