@@ -247,6 +247,16 @@ impl<const N: usize, const M: usize, const L: usize> Level<N, M, Lanes<L>> {
 }
 
 impl<const N: usize, const M: usize> Level<N, M> {
+    /// That of a mode before it is entered.
+    #[inline(always)]
+    pub(crate) fn unknown() -> Self {
+        Self {
+            reference: filled(f64::NAN),
+            remainder: filled(f64::NAN),
+            scale: filled(f64::NAN),
+        }
+    }
+
     /// The level at the entry into a mode, or the one that was `kept` of a segment that goes on.
     #[inline(always)]
     pub(crate) fn enter<F: Dynamics<f64, N, M>>(

@@ -45,10 +45,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
     ) -> Result<Ended, Failure> {
         let mut here = Here::of(self);
         let mut jet = Jet::<D, U, N, M, P>::new(dynamics, self.method.order(), self.memory.unit);
-        jet.expand(dynamics, here.time.value, &here.state.x);
-        // after the chain of recurrences, which leaves the processor time for it
-        let kept = self.cursor.level.as_deref();
-        let mut level = Level::enter(dynamics, here.time, &here.state, kept);
+        let mut level = Level::unknown();
         let end = self.steps::<P, M, D, U>(dynamics, &mut level, &mut jet, &mut here);
         self.memory.step = here.before;
         self.memory.free = here.free;
@@ -133,7 +130,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         self.expand::<MOST_COEFFICIENTS, M, D, Rolled>(dynamics)
     }
 
-    /// The steps, from local variables to local variables; `jet` is that of the start.
+    /// The steps, from local variables to local variables.
     #[inline(always)]
     fn steps<const P: usize, const M: usize, D: Dynamics<f64, N, M>, U: Unroll>(
         &mut self,
@@ -145,7 +142,22 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let end = self.until;
         let fraction = self.memory.fraction;
         let (corrects, near) = (self.method.corrects_level(), self.method.near());
+        // Where every guard is a new start, the start has code of its own, which is faster. Elsewhere the code
+        // of the series is there once.
+        let may_end = const { <D::Guards as Guards<f64, N>>::MAY_END };
+        if may_end {
+            jet.expand(dynamics, here.time.value, &here.state.x);
+            // after the chain of recurrences, which leaves the processor time for it
+            let kept = self.cursor.level.as_deref();
+            *level = Level::enter(dynamics, here.time, &here.state, kept);
+        }
         loop {
+            if !may_end {
+                jet.expand(dynamics, here.time.value, &here.state.x);
+                if here.steps == 0 {
+                    *level = self.level_at_start(dynamics, *here);
+                }
+            }
             let remaining = (end - here.time.value) - here.time.remainder;
             if remaining <= 0.0 {
                 return Next::Finished;
@@ -208,8 +220,22 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                     return Next::Finished;
                 }
             }
-            jet.expand(dynamics, here.time.value, &here.state.x);
+            if may_end {
+                jet.expand(dynamics, here.time.value, &here.state.x);
+            }
         }
+    }
+
+    /// The level of steps that start here.
+    #[cold]
+    #[inline(never)]
+    fn level_at_start<const M: usize, D: Dynamics<f64, N, M>>(
+        &self,
+        dynamics: &D,
+        here: Here<N>,
+    ) -> Level<N, M> {
+        let kept = self.cursor.level.as_deref();
+        Level::enter(dynamics, here.time, &here.state, kept)
     }
 }
 
