@@ -52,7 +52,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             return Err(Failure::not_located(guard, end.0));
         }
         self.outputs(sizes, time);
-        self.cursor.state = state;
+        self.cursor.state = state.by_numbers();
         self.cursor.time = time;
         self.sink.statistics().steps += 1;
         Ok(Ended::AtGuard { guard, rate })

@@ -26,7 +26,7 @@ impl<const N: usize, const M: usize> Entered<N, M> {
     /// At the start of a segment, or of one that goes on.
     #[inline(always)]
     pub(super) fn new<D: Dynamics<f64, N, M>>(dynamics: &D, cursor: &Cursor<N>) -> Self {
-        let Cursor { time, state, .. } = *cursor;
+        let (time, state) = (cursor.time.by_numbers(), cursor.state.by_numbers());
         let kept = cursor.level.as_deref();
         Self {
             time,

@@ -77,6 +77,13 @@ enum Course {
     },
     /// There is one, and none before.
     Crossing(Found),
+    /// Nothing.
+    Nothing(Reason),
+}
+
+/// Why nothing is certain.
+#[derive(Clone, Copy)]
+enum Reason {
     /// Whether this interface is met cannot be decided.
     Unknown(usize),
     /// The solution leaves the range of doubles.
@@ -115,7 +122,11 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         end: Time,
     ) -> Result<Ended, Failure> {
         let mut entered = Entered::new(dynamics, self.cursor);
-        let at = Place::new(dynamics, self.cursor.time.value, self.cursor.state);
+        let at = Place::new(
+            dynamics,
+            self.cursor.time.value,
+            self.cursor.state.by_numbers(),
+        );
         let progress = stopped.take().filter(|_| self.cursor.level.is_some());
         let mut start = Start {
             progress: progress.unwrap_or(Progress {
@@ -145,8 +156,10 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                     let end = (trial.tau, &trial.end.state);
                     return self.cross(dynamics, sizes, entered, found, end);
                 }
-                Course::Lost => return Err(StepFailure::NotFinite.over(trial.tau)),
-                Course::Unknown(guard) => {
+                Course::Nothing(Reason::Lost) => {
+                    return Err(StepFailure::NotFinite.over(trial.tau));
+                }
+                Course::Nothing(Reason::Unknown(guard)) => {
                     return Err(Failure::undecided(guard, trial.tau));
                 }
             };
@@ -207,7 +220,11 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             _ if exponent > 0 => return None,
             // the step cannot be made
             _ if !is_finite(&trial.end.state.x) => Course::Free { room: false },
-            _ => self.by_series(dynamics, tau),
+            _ => match self.by_series(dynamics, tau) {
+                Ok(Some(found)) => Course::Crossing(found),
+                Ok(None) => Course::Free { room: false },
+                Err(reason) => Course::Nothing(reason),
+            },
         };
         Some((trial, course))
     }
@@ -269,7 +286,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         &mut self,
         dynamics: &D,
         tau: f64,
-    ) -> Course {
+    ) -> Result<Option<Found>, Reason> {
         let t = self.cursor.time.value;
         let unit = unit_for(tau);
         let mut jet =
@@ -277,7 +294,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         jet.expand(dynamics, t, &self.cursor.state.x);
         jet.expand_switching(dynamics, t);
         let mut horizon = jet.in_units(tau);
-        let mut first = Course::Free { room: false };
+        let mut first = None;
         for (i, &(guard, side)) in dynamics.sides().iter().enumerate() {
             let coefficients = jet.switching(guard).map(|c| side.sign() * c);
             let x = &self.cursor.state.x;
@@ -285,17 +302,17 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
             let is_active = self.cursor.active.contains(guard);
             let Some(series) = Series::new(coefficients, size, is_active, jet.in_units(tau)) else {
                 let is_finite = jet.coefficients().iter().flatten().all(|c| c.is_finite());
-                return if is_finite {
-                    Course::Unknown(guard)
+                return Err(if is_finite {
+                    Reason::Unknown(guard)
                 } else {
-                    Course::Lost
-                };
+                    Reason::Lost
+                });
             };
             let (found, touches) = series.first_root(horizon);
             self.sink.statistics().grazes += u64::from(touches);
             if let Some(Root { place, bracket }) = found {
                 horizon = place;
-                first = Course::Crossing(Found {
+                first = Some(Found {
                     side: i,
                     elapsed: place * unit,
                     precise: true,
@@ -303,7 +320,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                 });
             }
         }
-        first
+        Ok(first)
     }
 }
 
