@@ -144,7 +144,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
         let (corrects, near) = (self.method.corrects_level(), self.method.near());
         // Where every guard is a new start, the start has code of its own, which is faster. Elsewhere the code
         // of the series is there once.
-        let may_end = const { <D::Guards as Guards<f64, N>>::MAY_END };
+        let may_end = <D::Guards as Guards<f64, N>>::MAY_END;
         if may_end {
             jet.expand(dynamics, here.time.value, &here.state.x);
             // after the chain of recurrences, which leaves the processor time for it
@@ -175,7 +175,7 @@ impl<S: Sink<N>, const N: usize> Segment<'_, S, N> {
                     return Next::Not(size);
                 }
                 state = jet.after(&here.state, tau);
-                if !<D::Guards as Guards<f64, N>>::MAY_END {
+                if !may_end {
                     break (tau, time, is_last);
                 }
                 let end = (tau, time, &state);
